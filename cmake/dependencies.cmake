@@ -1,0 +1,42 @@
+# Every dependency is a Debian package; packages.txt lists them and ./run installs them.
+# A missing one is named here together with its package.
+
+# conebook_need(<variable that must be true> <what> <package>)
+function(conebook_need found what package)
+  if(NOT ${found})
+    message(FATAL_ERROR "conebook: ${what} is missing; install the Debian package ${package} (or all of packages.txt)")
+  endif()
+endfunction()
+
+find_package(PkgConfig)
+conebook_need(PKG_CONFIG_FOUND pkg-config pkg-config)
+find_package(Threads REQUIRED)
+
+pkg_check_modules(epoxy QUIET IMPORTED_TARGET epoxy)
+conebook_need(epoxy_FOUND libepoxy libepoxy-dev)
+pkg_check_modules(egl QUIET IMPORTED_TARGET egl)
+conebook_need(egl_FOUND EGL libegl-dev)
+pkg_check_modules(glfw3 QUIET IMPORTED_TARGET glfw3)
+conebook_need(glfw3_FOUND GLFW libglfw3-dev)
+
+find_path(GLM_INCLUDE glm/glm.hpp)
+conebook_need(GLM_INCLUDE GLM libglm-dev)
+find_path(CLI11_INCLUDE CLI/CLI.hpp)
+conebook_need(CLI11_INCLUDE CLI11 libcli11-dev)
+
+find_path(STB_INCLUDE stb/stb_image.h)
+find_library(STB_LIBRARY stb)
+conebook_need(STB_LIBRARY stb libstb-dev)
+find_path(TINYGLTF_INCLUDE tiny_gltf.h PATH_SUFFIXES tinygltf)
+find_library(TINYGLTF_LIBRARY tinygltf)
+conebook_need(TINYGLTF_LIBRARY tinygltf libtinygltf-dev)
+find_path(JSON_INCLUDE nlohmann/json.hpp)
+conebook_need(JSON_INCLUDE "nlohmann json" nlohmann-json3-dev)
+find_path(TINYEXR_INCLUDE tinyexr.h)
+find_library(TINYEXR_LIBRARY tinyexr)
+conebook_need(TINYEXR_LIBRARY tinyexr libtinyexr-dev)
+find_path(EMBREE_INCLUDE embree3/rtcore.h)
+find_library(EMBREE_LIBRARY embree3)
+conebook_need(EMBREE_LIBRARY Embree libembree-dev)
+find_package(GTest QUIET)
+conebook_need(GTest_FOUND GoogleTest libgtest-dev)

@@ -1,0 +1,186 @@
+#include "app/app.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <stdexcept>
+
+#include "app/window.hpp"
+#include "image/image.hpp"
+
+namespace conebook {
+
+struct App::Window {
+    WindowInput input;
+    WindowRequests requests;
+    int screenshots = 0;
+};
+
+namespace {
+
+std::size_t index_of(const std::vector<View>& views, const std::string& name)
+{
+    std::size_t i = 0;
+    while (views[i].name != name) ++i;
+    return i;
+}
+
+// OpenGL's bottom row first to the files' top row first.
+template <typename T>
+void flip_rows(std::vector<T>& texels, int width, int height)
+{
+    for (int y = 0; y < height / 2; ++y)
+        std::swap_ranges(texels.begin() + std::ptrdiff_t(y) * width, texels.begin() + std::ptrdiff_t(y + 1) * width,
+                         texels.begin() + std::ptrdiff_t(height - 1 - y) * width);
+}
+
+}  // namespace
+
+App::App(int argc, char** argv, ProgramInfo info)
+    : info_(std::move(info)),
+      options_(parse_options(argc, argv, info_)),
+      scene_(load_scene(options_.scene)),
+      context_(options_.headless ? Context::headless() : Context::window(info_.name, options_.size)),
+      shaders_(options_.root / "shaders"),
+      camera_(choose_camera(scene_, options_.camera)),
+      size_(options_.size),
+      view_index_(index_of(info_.views, options_.view))
+{
+    for (const std::string& warning : scene_.warnings)
+        std::cerr << options_.scene.filename().string() << ": note: " << warning << "\n";
+    const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const std::string version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
+    software_driver_ = driver.find("llvmpipe") != std::string::npos || driver.find("softpipe") != std::string::npos ||
+                       driver.find("SWR") != std::string::npos;
+    statistics_.set_run(info_.name, driver + ", " + version, size_);
+    // The book's conventions for every pass: depth 1 near and 0 far, stored as float without loss.
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    if (context_.glfw_window() != nullptr)
+        window_ = std::unique_ptr<Window>(
+            new Window{WindowInput(context_.glfw_window(), camera_, scene_.bounds), {}, 0});
+}
+
+App::~App() = default;
+
+bool App::next_frame()
+{
+    ++frame_;
+    if (window_ == nullptr) return frame_ < options_.frames;
+    if (options_.frames_given && frame_ >= options_.frames) return false;
+    window_->requests = window_->input.poll(camera_);
+    const WindowRequests& requests = window_->requests;
+    if (requests.close) return false;
+    if (requests.next_view) view_index_ = (view_index_ + 1) % info_.views.size();
+    if (requests.view && *requests.view < info_.views.size()) view_index_ = *requests.view;
+    if (requests.reload_shaders) {
+        try {
+            shaders_.reload();
+        } catch (const std::exception& error) {
+            std::cerr << error.what() << "\n";  // the old programs go on, so the reader can correct the file
+        }
+    }
+    size_ = window_->input.framebuffer_size();
+    return true;
+}
+
+shared::CameraData App::camera() const { return camera_data(camera_, size_); }
+
+const View& App::view() const { return info_.views[view_index_]; }
+
+void App::collect_queries()
+{
+    for (const auto& [name, query] : pending_queries_) {
+        GLuint64 nanoseconds = 0;
+        glGetQueryObjectui64v(query.id(), GL_QUERY_RESULT, &nanoseconds);
+        statistics_.add_time(name, 1e-6 * double(nanoseconds));
+    }
+    pending_queries_.clear();
+}
+
+void App::pass(const std::string& name, const std::function<void()>& work)
+{
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name.c_str());
+    if (software_driver_) {
+        glFinish();
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        glFinish();
+        const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+        statistics_.add_time(name, elapsed.count());
+    } else {
+        GLuint query = 0;
+        glCreateQueries(GL_TIME_ELAPSED, 1, &query);
+        glBeginQuery(GL_TIME_ELAPSED, query);
+        work();
+        glEndQuery(GL_TIME_ELAPSED);
+        pending_queries_.emplace_back(name, gl::Handle<gl::delete_query>(query));
+    }
+    glPopDebugGroup();
+}
+
+void App::write_picture(const gl::Texture& linear, const gl::Texture& display) const
+{
+    const glm::ivec2 size = linear.size_2d();
+    ImageF radiance{size.x, size.y, {}};
+    const std::vector<float> floats = gl::read_floats(linear, 0, 4);
+    radiance.pixels.resize(floats.size() / 4);
+    std::memcpy(radiance.pixels.data(), floats.data(), floats.size() * sizeof(float));
+    for (const glm::vec4& pixel : radiance.pixels)
+        for (int c = 0; c < 4; ++c)
+            if (!std::isfinite(pixel[c]))
+                throw std::runtime_error(options_.output.string() + ": not written, the picture holds a value that is "
+                                                                    "not finite");
+    if (options_.output.extension() == ".exr") {
+        flip_rows(radiance.pixels, size.x, size.y);
+        write_exr(options_.output, radiance);
+        return;
+    }
+    std::vector<std::uint32_t> texels(std::size_t(size.x) * std::size_t(size.y));
+    glGetTextureImage(display.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(texels.size() * 4), texels.data());
+    flip_rows(texels, size.x, size.y);
+    Image8 picture{size.x, size.y, std::vector<std::uint8_t>(texels.size() * 4)};
+    std::memcpy(picture.rgba.data(), texels.data(), picture.rgba.size());
+    write_png(options_.output, picture);
+}
+
+void App::show(const gl::Texture& linear, const gl::Texture& display)
+{
+    linear_ = &linear;
+    display_ = &display;
+    collect_queries();
+    if (window_ == nullptr) return;
+    window_->input.present(display);
+    if (window_->requests.screenshot) {
+        const Options saved = options_;
+        options_.output = info_.name + "_" + std::to_string(window_->screenshots++) + ".png";
+        write_picture(linear, display);
+        std::cout << "screenshot: " << std::filesystem::absolute(options_.output).string() << "\n";
+        options_ = saved;
+    }
+}
+
+int App::finish()
+{
+    glFinish();
+    std::vector<std::string> faults = debug_log_.faults();
+    if (faults.empty()) {
+        if (linear_ != nullptr && !options_.output.empty()) write_picture(*linear_, *display_);
+        faults = debug_log_.faults();
+    }
+    if (!faults.empty()) throw std::runtime_error(faults.front());
+    if (!options_.stats.empty()) statistics_.write_json(options_.stats);
+    if (options_.print_stats) std::cout << statistics_.table();
+    return EXIT_SUCCESS;
+}
+
+int report_failure(const std::exception& error)
+{
+    if (const auto* exit = dynamic_cast<const ExitRequest*>(&error)) return exit->code;
+    std::string line = error.what();
+    std::cerr << line << "\n";
+    return EXIT_FAILURE;
+}
+
+}  // namespace conebook

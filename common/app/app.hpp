@@ -1,0 +1,83 @@
+// The frame loop that every chapter shares: command line, context, scene, camera, timing, pictures, exit code.
+//
+//     while (app.next_frame()) {
+//         app.pass("g-buffer", [&] { ... });
+//         app.show(linear, display);
+//     }
+//     return app.finish();
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/context.hpp"
+#include "app/options.hpp"
+#include "app/statistics.hpp"
+#include "gl/debug_log.hpp"
+#include "gl/gpu_scene.hpp"
+#include "gl/handles.hpp"
+#include "gl/shaders.hpp"
+#include "scene/scene.hpp"
+
+namespace conebook {
+
+class App {
+public:
+    // Parses the command line, makes the context, loads the scene. Throws as parse_options, Context, load_scene do.
+    App(int argc, char** argv, ProgramInfo info);
+    ~App();
+
+    const Options& options() const { return options_; }
+    const Scene& scene() const { return scene_; }
+    gl::Shaders& shaders() { return shaders_; }
+
+    // Starts a frame; false when the last one is done or the window was closed.
+    bool next_frame();
+    int frame() const { return frame_; }        // 0, 1, 2, ...
+    glm::ivec2 size() const { return size_; }   // of the picture in pixels; a window may change it between frames
+    shared::CameraData camera() const;          // this frame's
+    const View& view() const;                   // this frame's
+    bool shows(const std::string& view_name) const { return view().name == view_name; }
+
+    // Do and time one pass: CPU clock around glFinish on a software driver, whose timer queries do not count the
+    // work; GPU timer queries elsewhere.
+    void pass(const std::string& name, const std::function<void()>& work);
+
+    // The frame's picture: `linear` is what .exr gets, `display` (RGBA8, sRGB encoded) is for .png and the screen.
+    void show(const gl::Texture& linear, const gl::Texture& display);
+
+    Statistics& statistics() { return statistics_; }
+
+    // Writes picture and statistics and gives the exit code: 0 only if no OpenGL fault was seen.
+    int finish();
+
+private:
+    struct Window;
+    void write_picture(const gl::Texture& linear, const gl::Texture& display) const;
+    void collect_queries();
+
+    ProgramInfo info_;
+    Options options_;
+    Scene scene_;
+    Context context_;
+    gl::DebugLog debug_log_;
+    gl::Shaders shaders_;
+    Statistics statistics_;
+    Camera camera_;
+    glm::ivec2 size_;
+    std::size_t view_index_ = 0;
+    int frame_ = -1;
+    bool software_driver_ = false;
+    std::vector<std::pair<std::string, gl::Handle<gl::delete_query>>> pending_queries_;
+    const gl::Texture* linear_ = nullptr;
+    const gl::Texture* display_ = nullptr;
+    std::unique_ptr<Window> window_;  // null when headless
+};
+
+// For main's catch: prints the one line to stderr and gives the exit code.
+int report_failure(const std::exception& error);
+
+}  // namespace conebook

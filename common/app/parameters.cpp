@@ -1,0 +1,144 @@
+#include "app/parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+namespace conebook {
+
+namespace {
+
+std::string number_text(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+std::string joined(const std::vector<std::string>& words)
+{
+    std::string out;
+    for (const std::string& word : words) out += (out.empty() ? "" : " | ") + word;
+    return out;
+}
+
+std::string padded(std::string text, std::size_t width)
+{
+    text.resize(std::max(text.size() + 1, width), ' ');
+    return text;
+}
+
+double parse_number(const std::string& name, const std::string& text)
+{
+    std::size_t used = 0;
+    double value = 0.0;
+    try {
+        value = std::stod(text, &used);
+    } catch (const std::exception&) {
+        used = 0;
+    }
+    if (text.empty() || used != text.size() || !std::isfinite(value))
+        throw std::runtime_error("--set " + name + "=" + text + ": not a finite number");
+    return value;
+}
+
+}  // namespace
+
+std::string Parameter::value_text(double value) const
+{
+    if (!choices.empty()) return choices[std::size_t(value)];
+    if (as_bool != nullptr) return value != 0.0 ? "on" : "off";
+    return number_text(value);
+}
+
+std::string Parameter::range_text() const
+{
+    if (!choices.empty()) return joined(choices);
+    if (as_bool != nullptr) return "on | off";
+    return number_text(min) + " .. " + number_text(max);
+}
+
+void ParameterTable::insert(Parameter parameter)
+{
+    for (const Parameter& other : parameters_)
+        if (other.name == parameter.name)
+            throw std::logic_error("parameter " + parameter.name + " is entered twice");
+    parameters_.push_back(std::move(parameter));
+}
+
+void ParameterTable::add(const std::string& name, float& field, double min, double max, const std::string& unit,
+                         const std::string& help)
+{
+    insert({name, unit, help, min, max, &field, nullptr, nullptr, {}, field});
+}
+
+void ParameterTable::add(const std::string& name, int& field, int min, int max, const std::string& unit,
+                         const std::string& help)
+{
+    insert({name, unit, help, double(min), double(max), nullptr, &field, nullptr, {}, double(field)});
+}
+
+void ParameterTable::add(const std::string& name, bool& field, const std::string& help)
+{
+    insert({name, "", help, 0.0, 1.0, nullptr, nullptr, &field, {}, field ? 1.0 : 0.0});
+}
+
+void ParameterTable::add(const std::string& name, int& field, std::vector<std::string> choices, const std::string& help)
+{
+    const double last = double(choices.size()) - 1.0;
+    insert({name, "", help, 0.0, last, nullptr, &field, nullptr, std::move(choices), double(field)});
+}
+
+void ParameterTable::set(const std::string& assignment)
+{
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw std::runtime_error("--set " + assignment + ": expected NAME=VALUE");
+    const std::string name = assignment.substr(0, equals), text = assignment.substr(equals + 1);
+    const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                    [&](const Parameter& p) { return p.name == name; });
+    if (found == parameters_.end())
+        throw std::runtime_error("--set " + name + ": unknown parameter; --list-params names those of this chapter");
+
+    if (found->as_bool != nullptr && (text == "on" || text == "true" || text == "off" || text == "false")) {
+        *found->as_bool = text == "on" || text == "true";
+        return;
+    }
+    const auto choice = std::find(found->choices.begin(), found->choices.end(), text);
+    if (choice != found->choices.end()) {
+        *found->as_int = int(choice - found->choices.begin());
+        return;
+    }
+    const bool out_of_choices = !found->choices.empty();
+    if (out_of_choices)
+        throw std::runtime_error("--set " + name + "=" + text + ": must be one of " + found->range_text());
+    const double value = parse_number(name, text);
+    if (value < found->min || value > found->max)
+        throw std::runtime_error("--set " + name + "=" + text + ": out of range " + found->range_text() +
+                                 (found->unit.empty() ? "" : " " + found->unit));
+    const bool whole = found->as_int != nullptr || found->as_bool != nullptr;
+    if (whole && value != std::floor(value))
+        throw std::runtime_error("--set " + name + "=" + text + ": must be a whole number");
+    if (found->as_float != nullptr) *found->as_float = float(value);
+    if (found->as_int != nullptr) *found->as_int = int(value);
+    if (found->as_bool != nullptr) *found->as_bool = value != 0.0;
+}
+
+std::string ParameterTable::listing() const
+{
+    std::size_t name_width = 8, value_width = 8, range_width = 8;
+    for (const Parameter& p : parameters_) {
+        name_width = std::max(name_width, p.name.size() + 2);
+        value_width = std::max(value_width, p.value_text(p.default_value).size() + 2);
+        range_width = std::max(range_width, p.range_text().size() + 2);
+    }
+    std::string out;
+    for (const Parameter& p : parameters_)
+        out += padded(p.name, name_width) + padded(p.value_text(p.default_value), value_width) +
+               padded(p.range_text(), std::min<std::size_t>(range_width, 40)) +
+               padded(p.unit.empty() ? "-" : p.unit, 8) + p.help + "\n";
+    return out;
+}
+
+}  // namespace conebook

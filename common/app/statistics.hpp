@@ -1,0 +1,55 @@
+// What a run cost and why: times a pass, bytes a resource, what the scene needed.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gl/handles.hpp"
+
+namespace conebook {
+
+// Something that a scene may need or not (a shadow map, an emission volume, ...), and why.
+struct Need {
+    std::string name;
+    bool used = false;
+    std::string reason;
+};
+
+// A counted quantity, such as occupied voxels.
+struct Count {
+    std::string name;
+    double value = 0.0;
+    std::string unit;
+};
+
+class Statistics {
+public:
+    void add_time(const std::string& pass, double milliseconds);
+    void add_resources(const std::vector<gl::Resource>& resources)
+    {
+        resources_.insert(resources_.end(), resources.begin(), resources.end());
+    }
+    void set_needs(std::vector<Need> needs) { needs_ = std::move(needs); }
+    void set_counts(std::vector<Count> counts) { counts_ = std::move(counts); }
+    void set_run(std::string program, std::string driver, glm::ivec2 size)
+    {
+        program_ = std::move(program);
+        driver_ = std::move(driver);
+        size_ = size;
+    }
+    void write_json(const std::filesystem::path& file) const;  // throws std::runtime_error
+    std::string table() const;
+
+private:
+    std::vector<std::string> pass_order_;
+    std::map<std::string, std::vector<double>> times_ms_;
+    std::vector<gl::Resource> resources_;
+    std::vector<Need> needs_;
+    std::vector<Count> counts_;
+    std::string program_, driver_;
+    glm::ivec2 size_{0};
+};
+
+}  // namespace conebook

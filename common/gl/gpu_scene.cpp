@@ -1,0 +1,282 @@
+#include "gl/gpu_scene.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+namespace conebook {
+
+namespace {
+
+constexpr int kSlots = shared::kTextureSlots;
+
+std::array<const TextureSlot*, kSlots> slots_of(const Material& m)
+{
+    return {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+            &m.emission_texture,   &m.specular_texture,           &m.specular_color_texture};
+}
+
+bool is_srgb(int slot)
+{
+    return slot == shared::kBaseColorSlot || slot == shared::kEmissionSlot || slot == shared::kSpecularColorSlot;
+}
+
+shared::MaterialData material_data(const Material& m)
+{
+    shared::MaterialData data{};
+    data.base_color = m.base_color;
+    data.emission = glm::vec4(m.emission, m.alpha_cutoff);
+    data.specular = glm::vec4(m.specular_color, m.specular);
+    data.metallic = m.metallic;
+    data.roughness = m.roughness;
+    data.normal_scale = m.normal_scale;
+    data.flags = (m.alpha_mode == AlphaMode::mask ? shared::kMaterialMasked : 0) |
+                 (m.double_sided ? shared::kMaterialDoubleSided : 0) | (m.unlit ? shared::kMaterialUnlit : 0);
+    const auto slots = slots_of(m);
+    for (int s = 0; s < kSlots; ++s) {
+        const glm::mat3 rows = glm::transpose(slots[s]->uv_transform);
+        data.uv_row[2 * s] = glm::vec4(rows[0], float(slots[s]->uv_set));
+        data.uv_row[2 * s + 1] = glm::vec4(rows[1], slots[s]->present() ? 1.0f : 0.0f);
+    }
+    return data;
+}
+
+int level_count(int width, int height) { return 1 + int(std::floor(std::log2(double(std::max(width, height))))); }
+
+gl::Texture upload_rgba8(const Image& image, GLenum format)
+{
+    gl::Texture texture = gl::texture_2d(image.name.empty() ? "texture" : image.name, format,
+                                         {image.width, image.height}, level_count(image.width, image.height));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        image.rgba.data());
+    glGenerateTextureMipmap(texture.id());  // averages sRGB formats in linear light (OpenGL 4.5, 8.24)
+    return texture;
+}
+
+// 1 where the mask lets the texel stay, 0 elsewhere: averaged, that is the covered share of the area.
+gl::Texture upload_coverage(const Image& image, const Material& m)
+{
+    std::vector<std::uint8_t> covered(std::size_t(image.width) * std::size_t(image.height));
+    for (std::size_t i = 0; i < covered.size(); ++i)
+        covered[i] = float(image.rgba[4 * i + 3]) / 255.0f * m.base_color.a >= m.alpha_cutoff ? 255 : 0;
+    gl::Texture texture = gl::texture_2d(image.name + " coverage", GL_R8, {image.width, image.height},
+                                         level_count(image.width, image.height));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RED, GL_UNSIGNED_BYTE, covered.data());
+    glGenerateTextureMipmap(texture.id());
+    return texture;
+}
+
+GLint wrap_mode(Wrap wrap)
+{
+    return wrap == Wrap::repeat ? GL_REPEAT : wrap == Wrap::clamp_to_edge ? GL_CLAMP_TO_EDGE : GL_MIRRORED_REPEAT;
+}
+
+GLuint make_sampler(const TextureSlot& slot)
+{
+    GLuint id = 0;
+    glCreateSamplers(1, &id);
+    const bool linear = slot.min_filter == Filter::linear;
+    const GLint minification = slot.mipmapped ? (linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR)
+                                              : (linear ? GL_LINEAR : GL_NEAREST);
+    glSamplerParameteri(id, GL_TEXTURE_MIN_FILTER, minification);
+    glSamplerParameteri(id, GL_TEXTURE_MAG_FILTER, slot.mag_filter == Filter::linear ? GL_LINEAR : GL_NEAREST);
+    glSamplerParameteri(id, GL_TEXTURE_WRAP_S, wrap_mode(slot.wrap_s));
+    glSamplerParameteri(id, GL_TEXTURE_WRAP_T, wrap_mode(slot.wrap_t));
+    return id;
+}
+
+}  // namespace
+
+shared::LightData light_data(const Light& light)
+{
+    // KHR_lights_punctual, "Inner and Outer Cone Angles": attenuation = saturate(cos * scale + offset)^2.
+    const float cos_outer = std::cos(light.outer_cone_angle), cos_inner = std::cos(light.inner_cone_angle);
+    const float scale = 1.0f / std::max(0.001f, cos_inner - cos_outer);
+    shared::LightData data{};
+    data.position = glm::vec4(light.position, float(int(light.type)));
+    data.direction = glm::vec4(light.direction, light.range);
+    data.intensity = glm::vec4(light.intensity, 0.0f);
+    data.spot = glm::vec4(scale, -cos_outer * scale, cos_outer, 0.0f);
+    return data;
+}
+
+shared::CameraData camera_data(const Camera& camera, glm::ivec2 size)
+{
+    const float aspect = float(size.x) / float(size.y);
+    glm::mat4 clip_from_view(0.0f);
+    if (camera.orthographic) {
+        // Reversed depth: z_near -> 1, z_far -> 0.
+        const float far = camera.z_far > camera.z_near ? camera.z_far : camera.z_near + 1e4f;
+        clip_from_view[0][0] = 1.0f / camera.x_mag;
+        clip_from_view[1][1] = 1.0f / camera.y_mag;
+        clip_from_view[2][2] = 1.0f / (far - camera.z_near);
+        clip_from_view[3][2] = far / (far - camera.z_near);
+        clip_from_view[3][3] = 1.0f;
+    } else {
+        const float f = 1.0f / std::tan(0.5f * camera.y_fov);
+        clip_from_view[0][0] = f / aspect;
+        clip_from_view[1][1] = f;
+        clip_from_view[2][3] = -1.0f;
+        clip_from_view[3][2] = camera.z_near;
+    }
+    const glm::mat4 view_from_scene = glm::affineInverse(camera.world_from_camera);
+    shared::CameraData data{};
+    data.clip_from_scene = clip_from_view * view_from_scene;
+    data.scene_from_clip = camera.world_from_camera * glm::inverse(clip_from_view);
+    data.view_from_scene = view_from_scene;
+    data.position = glm::vec4(glm::vec3(camera.world_from_camera[3]), camera.orthographic ? 0.0f : 1.0f);
+    data.forward = glm::vec4(-glm::vec3(camera.world_from_camera[2]), 0.0f);
+    data.size = glm::vec4(size, 1.0f / glm::vec2(size));
+    return data;
+}
+
+GpuScene::GpuScene(const Scene& scene)
+    : triangle_count_(scene.triangle_count()),
+      bounds_(scene.bounds),
+      lights_(scene.lights),
+      draws_(scene.draws),
+      materials_(scene.materials),
+      vertex_buffer_("vertices", scene.vertices),
+      index_buffer_("indices", scene.indices)
+{
+    std::vector<shared::MaterialData> materials;
+    for (const Material& m : scene.materials) {
+        materials.push_back(material_data(m));
+        has_emission_ = has_emission_ || m.emission != glm::vec3(0.0f) || m.unlit;
+    }
+    material_buffer_ = gl::Buffer("materials", materials);
+    std::vector<shared::LightData> lights;
+    for (const Light& light : scene.lights) lights.push_back(light_data(light));
+    light_buffer_ = gl::Buffer("lights", lights);
+
+    struct Attribute {
+        GLint components;
+        std::size_t offset;
+    };
+    const Attribute attributes[] = {{3, offsetof(Vertex, position)}, {3, offsetof(Vertex, normal)},
+                                    {4, offsetof(Vertex, tangent)},  {2, offsetof(Vertex, uv0)},
+                                    {2, offsetof(Vertex, uv1)},      {4, offsetof(Vertex, color)}};
+    const GLuint vao = vertex_array_.id();
+    glVertexArrayVertexBuffer(vao, 0, vertex_buffer_.id(), 0, sizeof(Vertex));
+    glVertexArrayElementBuffer(vao, index_buffer_.id());
+    for (GLuint i = 0; i < std::size(attributes); ++i) {
+        glEnableVertexArrayAttrib(vao, i);
+        glVertexArrayAttribFormat(vao, i, attributes[i].components, GL_FLOAT, GL_FALSE, GLuint(attributes[i].offset));
+        glVertexArrayAttribBinding(vao, i, 0);
+    }
+
+    const Image white_image{"white", 1, 1, {255, 255, 255, 255}};
+    white_ = upload_rgba8(white_image, GL_RGBA8);
+
+    std::map<std::pair<int, bool>, int> uploaded;  // (image, sRGB) -> texture
+    for (const Material& m : scene.materials) {
+        auto& bindings = bindings_.emplace_back();
+        const auto slots = slots_of(m);
+        for (int s = 0; s < kSlots; ++s) {
+            if (!slots[s]->present()) continue;
+            const auto [entry, is_new] = uploaded.try_emplace({slots[s]->image, is_srgb(s)}, int(textures_.size()));
+            if (is_new)
+                textures_.push_back(upload_rgba8(scene.images[std::size_t(slots[s]->image)],
+                                                 is_srgb(s) ? GL_SRGB8_ALPHA8 : GL_RGBA8));
+            bindings[s].texture = entry->second;
+            bindings[s].sampler = gl::Handle<gl::delete_sampler>(make_sampler(*slots[s]));
+        }
+        if (m.alpha_mode == AlphaMode::mask && m.base_color_texture.present()) {
+            bindings[shared::kCoverageUnit].texture = int(textures_.size());
+            textures_.push_back(upload_coverage(scene.images[std::size_t(m.base_color_texture.image)], m));
+            TextureSlot slot = m.base_color_texture;
+            slot.mipmapped = true;
+            slot.min_filter = Filter::linear;
+            bindings[shared::kCoverageUnit].sampler = gl::Handle<gl::delete_sampler>(make_sampler(slot));
+        }
+    }
+}
+
+void GpuScene::bind_buffers() const
+{
+    material_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 0);
+    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 1);
+    vertex_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 2);
+    index_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 3);
+}
+
+void GpuScene::bind_lights(const gl::Program& program) const
+{
+    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 1);
+    program.set("light_count", int(lights_.size()));
+}
+
+void GpuScene::bind_material(const gl::Program& program, int material) const
+{
+    program.set("material_index", material);
+    const auto& bindings = bindings_[std::size_t(material)];
+    for (GLuint unit = 0; unit < bindings.size(); ++unit) {
+        const BoundTexture& bound = bindings[unit];
+        glBindTextureUnit(unit, bound.texture >= 0 ? textures_[std::size_t(bound.texture)].id() : white_.id());
+        glBindSampler(unit, bound.sampler.id());
+    }
+}
+
+namespace {
+void unbind_samplers()
+{
+    for (GLuint unit = 0; unit <= GLuint(shared::kCoverageUnit); ++unit) glBindSampler(unit, 0);
+}
+}  // namespace
+
+void GpuScene::draw(const gl::Program& program, Culling culling) const
+{
+    program.use();
+    bind_buffers();
+    program.set("light_count", int(lights_.size()));
+    glBindVertexArray(vertex_array_.id());
+    glCullFace(GL_BACK);
+    int bound_material = -1;
+    for (const Draw& draw : draws_) {
+        if (draw.material != bound_material) {
+            bound_material = draw.material;
+            bind_material(program, draw.material);
+            const bool cull = culling == Culling::back_of_single_sided &&
+                              !materials_[std::size_t(draw.material)].double_sided;
+            (cull ? glEnable : glDisable)(GL_CULL_FACE);
+        }
+        program.set("first_index", draw.first_index);
+        glDrawElements(GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT,
+                       reinterpret_cast<const void*>(std::size_t(draw.first_index) * sizeof(GLuint)));
+    }
+    glDisable(GL_CULL_FACE);
+    unbind_samplers();
+}
+
+void GpuScene::dispatch_triangles(const gl::Program& program) const
+{
+    constexpr GLuint kMaxGroups = 65535;  // the least that OpenGL 4.5 promises (table 23.66)
+    program.use();
+    bind_buffers();
+    for (const Draw& draw : draws_) {
+        bind_material(program, draw.material);
+        const GLuint triangles = draw.index_count / 3;
+        for (GLuint first = 0; first < triangles; first += kMaxGroups) {
+            const GLuint count = std::min(kMaxGroups, triangles - first);
+            program.set("first_index", draw.first_index + 3 * first);
+            program.set("triangle_count", count);
+            glDispatchCompute(count, 1, 1);
+        }
+    }
+    unbind_samplers();
+}
+
+std::vector<gl::Resource> GpuScene::resources() const
+{
+    std::size_t texture_bytes = 0;
+    for (const gl::Texture& texture : textures_) texture_bytes += texture.bytes();
+    return {{"scene geometry", vertex_buffer_.bytes() + index_buffer_.bytes()},
+            {"scene textures", texture_bytes},
+            {"scene materials and lights", material_buffer_.bytes() + light_buffer_.bytes()}};
+}
+
+}  // namespace conebook

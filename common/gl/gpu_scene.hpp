@@ -1,0 +1,63 @@
+// A scene in GPU memory, and how passes draw it.
+#pragma once
+
+#include <vector>
+
+#include "common/scene_structs.glsl"
+#include "gl/handles.hpp"
+#include "gl/shaders.hpp"
+#include "scene/scene.hpp"
+
+namespace conebook {
+
+// Which faces a pass leaves out. `back_of_single_sided` is what a camera sees: double-sided materials show both.
+enum class Culling { none, back_of_single_sided };
+
+class GpuScene {
+public:
+    explicit GpuScene(const Scene& scene);
+
+    // Bind buffers (materials: storage 0, lights: storage 1) and draw every triangle with `program`, material by
+    // material: uniform int material_index, textures on units 0..6 (kBaseColorSlot ... kCoverageUnit).
+    // Vertex attributes: 0 position, 1 normal, 2 tangent, 3 uv0, 4 uv1, 5 colour (see Vertex). For shaders that pull
+    // vertices themselves: uniform uint first_index, vertices on storage 2 (18 floats each), indices on storage 3.
+    void draw(const gl::Program& program, Culling culling) const;
+
+    // The same for compute shaders: dispatches one work group a triangle (uniform uint triangle_count).
+    void dispatch_triangles(const gl::Program& program) const;
+
+    // Bind the light list (storage 1) and set uniform int light_count.
+    void bind_lights(const gl::Program& program) const;
+
+    const Bounds& bounds() const { return bounds_; }
+    const std::vector<Light>& lights() const { return lights_; }
+    std::size_t triangle_count() const { return triangle_count_; }
+    bool has_emission() const { return has_emission_; }
+    std::vector<gl::Resource> resources() const;
+
+private:
+    void bind_buffers() const;
+    void bind_material(const gl::Program& program, int material) const;
+    std::size_t triangle_count_ = 0;
+    Bounds bounds_;
+    bool has_emission_ = false;
+    std::vector<Light> lights_;
+    std::vector<Draw> draws_;
+    std::vector<Material> materials_;
+    gl::Buffer vertex_buffer_, index_buffer_, material_buffer_, light_buffer_;
+    gl::VertexArray vertex_array_;
+    struct BoundTexture {
+        int texture = -1;  // index into textures_
+        gl::Handle<gl::delete_sampler> sampler;
+    };
+    std::vector<gl::Texture> textures_;
+    std::vector<std::array<BoundTexture, shared::kCoverageUnit + 1>> bindings_;  // by material
+    gl::Texture white_;
+};
+
+// Matrices of a camera for a picture of `size` pixels; reversed depth with an infinite far plane.
+shared::CameraData camera_data(const Camera& camera, glm::ivec2 size);
+// LightData as the shaders read it.
+shared::LightData light_data(const Light& light);
+
+}  // namespace conebook

@@ -1,0 +1,22 @@
+#include "gl/pixel_pass.hpp"
+
+namespace conebook::gl {
+
+void fit_to_pixels(Texture& color, Framebuffer& framebuffer, const std::string& label, GLenum format, glm::ivec2 size)
+{
+    if (color && color.size_2d() == size) return;
+    color = texture_2d(label, format, size);
+    framebuffer = Framebuffer(label, {&color});
+}
+
+void draw_pixels(const Program& program, const Framebuffer& framebuffer, const VertexArray& no_vertices,
+                 glm::ivec2 size)
+{
+    framebuffer.bind(size);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    program.use();
+    draw_fullscreen_triangle(no_vertices);
+}
+
+}  // namespace conebook::gl

@@ -1,0 +1,16 @@
+// What every pass over pixels does: one shader invocation for each pixel of its output.
+#pragma once
+
+#include "gl/handles.hpp"
+#include "gl/shaders.hpp"
+
+namespace conebook::gl {
+
+// Make `color` and its framebuffer again when the size changes, or when there is none yet.
+void fit_to_pixels(Texture& color, Framebuffer& framebuffer, const std::string& label, GLenum format, glm::ivec2 size);
+
+// Run `program` (common/fullscreen.vert and a fragment shader) for every pixel, without depth test and blending.
+void draw_pixels(const Program& program, const Framebuffer& framebuffer, const VertexArray& no_vertices,
+                 glm::ivec2 size);
+
+}  // namespace conebook::gl

@@ -1,0 +1,59 @@
+// Programs from files: includes, constants set from C++, errors with the file and line of the included file, reload.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <epoxy/gl.h>
+#include <glm/glm.hpp>
+
+namespace conebook::gl {
+
+// #define NAME VALUE, placed after #version.
+using Defines = std::map<std::string, std::string>;
+
+// A linked program. Copies share it; after Shaders::reload all of them are the new one.
+class Program {
+public:
+    Program() = default;
+    GLuint id() const;
+    void use() const;
+    // Uniforms by name. A name that the linked program does not use is ignored: variants leave some out.
+    void set(const char* name, bool value) const;
+    void set(const char* name, int value) const;
+    void set(const char* name, GLuint value) const;
+    void set(const char* name, float value) const;
+    void set(const char* name, glm::vec2 value) const;
+    void set(const char* name, glm::vec3 value) const;
+    void set(const char* name, glm::vec4 value) const;
+    void set(const char* name, glm::ivec2 value) const;
+    void set(const char* name, glm::ivec3 value) const;
+    void set(const char* name, const glm::mat4& value) const;
+    void set(const char* name, const std::vector<glm::vec4>& values) const;
+
+private:
+    friend class Shaders;
+    struct State;
+    explicit Program(std::shared_ptr<State> state) : state_(std::move(state)) {}
+    std::shared_ptr<State> state_;
+};
+
+class Shaders {
+public:
+    explicit Shaders(std::filesystem::path shader_root);
+    // Compile and link; the stage follows from the extension (.vert .geom .frag .comp). Paths are relative to the
+    // shader root, as are those of #include "...", which takes each file once. Throws std::runtime_error with
+    // FILE:LINE of the fault; a warning of the compiler is a fault too.
+    Program load(const std::vector<std::string>& files, const Defines& defines = {});
+    // Compile again all programs still in use. On a fault the old programs stay and the fault is thrown.
+    void reload();
+
+private:
+    std::filesystem::path root_;
+    std::vector<std::weak_ptr<Program::State>> programs_;
+};
+
+}  // namespace conebook::gl

@@ -1,0 +1,254 @@
+#include "image/image.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+#include <tinyexr.h>
+#include <unistd.h>
+
+namespace conebook {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+// A picture of more pixels than this is a broken or hostile header, not a picture of this book.
+constexpr std::int64_t kMaxPixels = std::int64_t(1) << 28;
+
+std::runtime_error fault(const std::filesystem::path& file, const std::string& what)
+{
+    return std::runtime_error(file.string() + ": " + what);
+}
+
+Bytes read_bytes(const std::filesystem::path& file)
+{
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) throw fault(file, "no such file");
+    if (std::filesystem::is_directory(file, error)) throw fault(file, "is a folder, not a picture");
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw fault(file, "cannot be read");
+    Bytes bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    if (bytes.empty()) throw fault(file, "is empty");
+    return bytes;
+}
+
+// The bytes go to a temporary in the same folder (rename is atomic within a file system only), then take its name.
+void write_bytes(const std::filesystem::path& file, const unsigned char* data, std::size_t size)
+{
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder, error))
+        throw fault(file, "cannot be written: folder " + folder.string() + " does not exist");
+    if (std::filesystem::is_directory(file, error)) throw fault(file, "cannot be written: it is a folder");
+    std::filesystem::path temporary = folder / ".";
+    temporary += file.filename();
+    temporary += '.';
+    temporary += std::to_string(getpid());
+    temporary += ".part";
+    bool good = false;
+    {
+        std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+        if (!out) throw fault(file, "cannot be written: no permission in folder " + folder.string());
+        out.write(reinterpret_cast<const char*>(data), std::streamsize(size));
+        out.close();
+        good = bool(out);
+    }
+    if (good) std::filesystem::rename(temporary, file, error);
+    if (!good || error) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw fault(file,
+                    good ? "cannot be written: " + error.message() : "cannot be written: disk full or write error");
+    }
+}
+
+template <typename Picture>
+void check_size(const std::filesystem::path& file, const Picture& image, std::size_t have, std::size_t per_pixel)
+{
+    if (image.width <= 0 || image.height <= 0)
+        throw fault(file, "cannot be written: the picture is " + std::to_string(image.width) + "x" +
+                              std::to_string(image.height));
+    if (have != std::size_t(image.width) * image.height * per_pixel)
+        throw fault(file, "cannot be written: the picture's size and its number of values differ");
+}
+
+std::string take_message(const char* message, const char* otherwise)
+{
+    if (!message) return otherwise;
+    std::string text = message;
+    FreeEXRErrorMessage(message);
+    while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
+    for (char& c : text)
+        if (c == '\n') c = ' ';
+    return text;
+}
+
+struct ExrHeaderOwner {
+    EXRHeader value;
+    ExrHeaderOwner() { InitEXRHeader(&value); }
+    ~ExrHeaderOwner() { FreeEXRHeader(&value); }
+    ExrHeaderOwner(const ExrHeaderOwner&) = delete;
+    ExrHeaderOwner& operator=(const ExrHeaderOwner&) = delete;
+};
+
+struct ExrImageOwner {
+    EXRImage value;
+    ExrImageOwner() { InitEXRImage(&value); }
+    ~ExrImageOwner() { FreeEXRImage(&value); }
+    ExrImageOwner(const ExrImageOwner&) = delete;
+    ExrImageOwner& operator=(const ExrImageOwner&) = delete;
+};
+
+}  // namespace
+
+void write_exr(const std::filesystem::path& file, const ImageF& image)
+{
+    check_size(file, image, image.pixels.size(), 1);
+    // OpenEXR keeps channels in alphabetical order, each as a plane of its own.
+    constexpr std::array<const char*, 4> names{"A", "B", "G", "R"};
+    constexpr std::array<int, 4> component{3, 2, 1, 0};
+    std::array<std::vector<float>, 4> planes;
+    std::array<unsigned char*, 4> plane_pointers{};
+    for (int c = 0; c < 4; ++c) {
+        planes[c].resize(image.pixels.size());
+        for (std::size_t i = 0; i < image.pixels.size(); ++i) planes[c][i] = image.pixels[i][component[c]];
+        plane_pointers[c] = reinterpret_cast<unsigned char*>(planes[c].data());
+    }
+    std::array<EXRChannelInfo, 4> channels{};
+    std::array<int, 4> types{};
+    types.fill(TINYEXR_PIXELTYPE_FLOAT);
+    for (int c = 0; c < 4; ++c) std::strncpy(channels[c].name, names[c], sizeof(channels[c].name) - 1);
+
+    // Both structs only point into the arrays above, which free themselves: no FreeEXR... here.
+    EXRHeader header;
+    InitEXRHeader(&header);
+    header.num_channels = 4;
+    header.channels = channels.data();
+    header.pixel_types = types.data();
+    header.requested_pixel_types = types.data();
+    header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
+    EXRImage exr;
+    InitEXRImage(&exr);
+    exr.num_channels = 4;
+    exr.images = plane_pointers.data();
+    exr.width = image.width;
+    exr.height = image.height;
+
+    unsigned char* memory = nullptr;
+    const char* message = nullptr;
+    const std::size_t size = SaveEXRImageToMemory(&exr, &header, &memory, &message);
+    const std::unique_ptr<unsigned char, void (*)(void*)> owner(memory, std::free);
+    if (size == 0) throw fault(file, "cannot be written: " + take_message(message, "OpenEXR encoding failed"));
+    write_bytes(file, memory, size);
+}
+
+ImageF read_exr(const std::filesystem::path& file)
+{
+    const Bytes bytes = read_bytes(file);
+    EXRVersion version;
+    if (ParseEXRVersionFromMemory(&version, bytes.data(), bytes.size()) != TINYEXR_SUCCESS)
+        throw fault(file, "is not an OpenEXR file");
+    if (version.multipart || version.non_image)
+        throw fault(file, "multi-part and deep OpenEXR files are not supported");
+    ExrHeaderOwner header;
+    const char* message = nullptr;
+    if (ParseEXRHeaderFromMemory(&header.value, &version, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS)
+        throw fault(file, "broken OpenEXR header: " + take_message(message, "unknown reason"));
+    const auto& window = header.value.data_window;
+    const std::int64_t width = std::int64_t(window.max_x) - window.min_x + 1;
+    const std::int64_t height = std::int64_t(window.max_y) - window.min_y + 1;
+    if (width <= 0 || height <= 0 || width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels)
+        throw fault(file, "impossible size " + std::to_string(width) + "x" + std::to_string(height));
+    // zlib packs at most 1032:1 (zlib technical notes); a header that claims more would only cost memory.
+    if (width * height > std::int64_t(bytes.size()) * 1100)
+        throw fault(file, "is truncated: " + std::to_string(width) + "x" + std::to_string(height) + " pixels in " +
+                              std::to_string(bytes.size()) + " bytes");
+
+    std::array<int, 4> plane{-1, -1, -1, -1};
+    for (int c = 0; c < header.value.num_channels; ++c) {
+        const std::string name = header.value.channels[c].name;
+        constexpr std::array<const char*, 4> names{"R", "G", "B", "A"};
+        for (int k = 0; k < 4; ++k)
+            if (name == names[k]) plane[k] = c;
+    }
+    for (int k = 0; k < 4; ++k) {
+        if (plane[k] < 0) {
+            if (k < 3) throw fault(file, std::string("has no channel ") + "RGBA"[k]);
+            continue;
+        }
+        if (header.value.pixel_types[plane[k]] == TINYEXR_PIXELTYPE_UINT)
+            throw fault(file, "integer channels are not supported (half or float is)");
+    }
+    for (int c = 0; c < header.value.num_channels; ++c)
+        if (header.value.pixel_types[c] == TINYEXR_PIXELTYPE_HALF)
+            header.value.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
+
+    ExrImageOwner exr;
+    exr.value.num_channels = header.value.num_channels;  // else tinyexr loses the planes when it fails
+    if (LoadEXRImageFromMemory(&exr.value, &header.value, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
+        InitEXRImage(&exr.value);  // tinyexr 1.0.1 has freed its planes already when it fails, but keeps the pointers
+        throw fault(file, "broken OpenEXR data: " + take_message(message, "unknown reason"));
+    }
+    ImageF image{int(width), int(height), std::vector<glm::vec4>(std::size_t(width * height), glm::vec4(0, 0, 0, 1))};
+    const auto copy = [&](unsigned char** planes, int x0, int y0, int w, int h, int stride) {
+        for (int k = 0; k < 4; ++k) {
+            if (plane[k] < 0) continue;
+            const float* values = reinterpret_cast<const float*>(planes[plane[k]]);
+            for (int y = 0; y < h && y0 + y < image.height; ++y)
+                for (int x = 0; x < w && x0 + x < image.width; ++x)
+                    image.at(x0 + x, y0 + y)[k] = values[std::size_t(y) * stride + x];
+        }
+    };
+    if (header.value.tiled) {
+        const int tile_w = header.value.tile_size_x, tile_h = header.value.tile_size_y;
+        for (int t = 0; t < exr.value.num_tiles; ++t) {
+            const EXRTile& tile = exr.value.tiles[t];
+            copy(tile.images, tile.offset_x * tile_w, tile.offset_y * tile_h, tile.width, tile.height, tile_w);
+        }
+    } else {
+        copy(exr.value.images, 0, 0, image.width, image.height, image.width);
+    }
+    return image;
+}
+
+void write_png(const std::filesystem::path& file, const Image8& image)
+{
+    check_size(file, image, image.rgba.size(), 4);
+    Bytes bytes;
+    const auto append = [](void* context, void* data, int size) {
+        auto* out = static_cast<Bytes*>(context);
+        const auto* first = static_cast<const unsigned char*>(data);
+        out->insert(out->end(), first, first + size);
+    };
+    if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.rgba.data(), image.width * 4))
+        throw fault(file, "cannot be written: PNG encoding failed");
+    write_bytes(file, bytes.data(), bytes.size());
+}
+
+Image8 read_png(const std::filesystem::path& file)
+{
+    const Bytes bytes = read_bytes(file);
+    static constexpr unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    if (bytes.size() < 8 || std::memcmp(bytes.data(), signature, 8) != 0) throw fault(file, "is not a PNG file");
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels) ||
+        std::int64_t(width) * height > kMaxPixels || std::int64_t(width) * height > std::int64_t(bytes.size()) * 8800)
+        throw fault(file, "broken PNG header");
+    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+        stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4), stbi_image_free);
+    if (!pixels) {
+        const char* reason = stbi_failure_reason();
+        throw fault(file, std::string("broken PNG data: ") + (reason ? reason : "unknown reason"));
+    }
+    return Image8{width, height,
+                  std::vector<std::uint8_t>(pixels.get(), pixels.get() + std::size_t(width) * height * 4)};
+}
+
+}  // namespace conebook

@@ -1,0 +1,188 @@
+// Cameras and lights: both take a position and a direction from their node, and neither its scale.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "scene/parts.hpp"
+
+namespace conebook {
+namespace gltf {
+namespace {
+
+bool is_finite(glm::dvec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Rotation and translation of a node, its scale and mirroring taken out; empty when nothing is left of the axes.
+std::optional<glm::dmat4> rigid(const glm::dmat4& matrix)
+{
+    const auto unit = [](glm::dvec3 v) {
+        const double length = glm::length(v);
+        return length > 0.0 && std::isfinite(length) ? v / length : glm::dvec3(0.0);
+    };
+    const glm::dvec3 z = unit(glm::dvec3(matrix[2]));
+    const glm::dvec3 up = unit(glm::dvec3(matrix[1]));
+    const glm::dvec3 y = unit(up - z * glm::dot(z, up));
+    if (z == glm::dvec3(0.0) || y == glm::dvec3(0.0) || !is_finite(matrix[3])) return std::nullopt;
+    return glm::dmat4(glm::dvec4(glm::cross(y, z), 0.0), glm::dvec4(y, 0.0), glm::dvec4(z, 0.0), matrix[3]);
+}
+
+glm::dmat4 relative_to(glm::dmat4 matrix, glm::dvec3 origin_ws)
+{
+    matrix[3] -= glm::dvec4(origin_ws, 0.0);
+    return matrix;
+}
+
+Camera read_lens(const tinygltf::Camera& source, const std::string& where, Warnings& warnings)
+{
+    Camera camera;
+    camera.name = source.name;
+    double z_far = 0.0, z_near = 0.0;
+    if (source.type == "orthographic") {
+        const auto& lens = source.orthographic;
+        camera.orthographic = true;
+        camera.x_mag = to_float(std::abs(lens.xmag), where + ".xmag");
+        camera.y_mag = to_float(std::abs(lens.ymag), where + ".ymag");
+        if (!(camera.x_mag > 0.0f && camera.y_mag > 0.0f)) fail(where + " has a zero xmag or ymag");
+        z_near = lens.znear;
+        z_far = lens.zfar;
+        if (z_near < 0.0) fail(where + " has a negative znear");
+    } else {
+        const auto& lens = source.perspective;
+        camera.y_fov = to_float(lens.yfov, where + ".yfov");
+        if (!(lens.yfov > 0.0 && lens.yfov < std::numbers::pi)) fail(where + ".yfov is outside 0 to pi");
+        z_near = lens.znear;
+        z_far = lens.zfar;
+        if (!(z_near > 0.0)) fail(where + ".znear is not positive");
+    }
+    camera.z_near = to_float(z_near, where + ".znear");
+    camera.z_far = to_float(z_far, where + ".zfar");
+    if (camera.z_far != 0.0f && !(camera.z_far > camera.z_near)) {
+        warn(warnings, where + ".zfar is not beyond znear; it is read as infinite");
+        camera.z_far = 0.0f;
+    }
+    return camera;
+}
+
+Light read_light_type(const tinygltf::Light& source, const std::string& where, Warnings& warnings)
+{
+    Light light;
+    light.name = source.name;
+    if (source.type == "directional") {
+        light.type = LightType::directional;
+    } else if (source.type == "point") {
+        light.type = LightType::point;
+    } else if (source.type == "spot") {
+        light.type = LightType::spot;
+    } else {
+        fail(where + " has the unknown type '" + source.type + "'");
+    }
+    for (int c = 0; c < 3; ++c) {
+        const double color = source.color.size() == 3 ? source.color[static_cast<std::size_t>(c)] : 1.0;
+        if (color < 0.0 || source.intensity < 0.0) fail(where + " has a negative colour or intensity");
+        light.intensity[c] = to_float(color * source.intensity, where + ": its intensity");
+    }
+    if (source.range < 0.0) warn(warnings, where + " has a negative range; it is read as infinite");
+    if (light.type != LightType::directional) light.range = to_float(std::max(source.range, 0.0), where + ".range");
+    // KHR_lights_punctual: 0 <= inner < outer <= pi/2.
+    const double outer = std::clamp(source.spot.outerConeAngle, 1e-4, std::numbers::pi / 2);
+    const double inner = std::clamp(source.spot.innerConeAngle, 0.0, outer);
+    if (light.type == LightType::spot && (outer != source.spot.outerConeAngle || inner != source.spot.innerConeAngle)) {
+        warn(warnings, where + " has cone angles outside 0 <= inner < outer <= pi/2, which are clamped");
+    }
+    light.outer_cone_angle = static_cast<float>(outer);
+    light.inner_cone_angle = static_cast<float>(inner);
+    return light;
+}
+
+}  // namespace
+
+std::vector<Camera> read_cameras(const Document& document, const std::vector<Instance>& nodes, glm::dvec3 origin_ws,
+                                 Warnings& warnings)
+{
+    std::vector<Instance> ordered = nodes;
+    std::sort(ordered.begin(), ordered.end(), [](const Instance& a, const Instance& b) { return a.node < b.node; });
+    std::vector<Camera> cameras;
+    for (const Instance& instance : ordered) {
+        const auto& node = document.model.nodes[static_cast<std::size_t>(instance.node)];
+        if (node.camera < 0) continue;
+        const std::string where = "cameras[" + std::to_string(node.camera) + "]";
+        Camera camera = read_lens(document.model.cameras.at(static_cast<std::size_t>(node.camera)), where, warnings);
+        const auto world_from_camera = rigid(instance.world_from_node);
+        if (!world_from_camera) {
+            warn(warnings, where + " is on a node without extent and is left out");
+            continue;
+        }
+        camera.world_from_camera = glm::mat4(relative_to(*world_from_camera, origin_ws));
+        if (!is_finite(glm::dvec3(camera.world_from_camera[3]))) fail(where + " is placed beyond what a float holds");
+        if (camera.name.empty()) camera.name = node.name;
+        cameras.push_back(std::move(camera));
+    }
+    return cameras;
+}
+
+std::vector<Light> read_lights(const Document& document, const std::vector<Instance>& nodes, glm::dvec3 origin_ws,
+                               Warnings& warnings)
+{
+    std::vector<Light> lights;
+    for (const Instance& instance : nodes) {
+        const auto& node = document.model.nodes[static_cast<std::size_t>(instance.node)];
+        const auto extension = node.extensions.find("KHR_lights_punctual");
+        if (extension == node.extensions.end()) continue;
+        const int index = extension->second.Get("light").GetNumberAsInt();
+        const std::string where = "lights[" + std::to_string(index) + "]";
+        Light light = read_light_type(document.model.lights.at(static_cast<std::size_t>(index)), where, warnings);
+        const glm::dvec3 position = glm::dvec3(instance.world_from_node[3]) - origin_ws;
+        const glm::dvec3 axis = -glm::dvec3(instance.world_from_node[2]);  // it shines along the node's -z
+        const double length = glm::length(axis);
+        if (!is_finite(position) || !std::isfinite(length) || (length == 0.0 && light.type != LightType::point)) {
+            warn(warnings, where + " is on a node without extent and is left out");
+            continue;
+        }
+        for (int c = 0; c < 3; ++c) light.position[c] = to_float(position[c], where + ": its position");
+        if (length > 0.0) light.direction = glm::vec3(axis / length);
+        if (light.name.empty()) light.name = node.name;
+        lights.push_back(std::move(light));
+    }
+    return lights;
+}
+
+Light default_light(const Scene& scene)
+{
+    // Over the viewer's left shoulder, 35 degrees down: what is in front of the camera is lit, and has shape.
+    const glm::mat4 camera = choose_camera(scene, std::nullopt).world_from_camera;
+    Light light;
+    light.type = LightType::directional;
+    light.name = "default";
+    light.direction = glm::normalize(glm::mat3(camera) * glm::vec3(0.5f, -0.7f, -0.85f));
+    // An irradiance of pi W/m^2: a white diffuse surface that faces the light has a radiance of 1.
+    light.intensity = glm::vec3(std::numbers::pi_v<float>);
+    return light;
+}
+
+}  // namespace gltf
+
+Camera choose_camera(const Scene& scene, std::optional<int> index)
+{
+    const int count = static_cast<int>(scene.cameras.size());
+    if (index && (*index < 0 || *index >= count)) {
+        throw std::runtime_error((scene.name.empty() ? "the scene" : scene.name) + ": there is no camera " +
+                                 std::to_string(*index) + ", the scene has " + std::to_string(count));
+    }
+    if (count > 0) return scene.cameras[static_cast<std::size_t>(index.value_or(0))];
+
+    // From the front, a little to the right and above; the bounding sphere fits a square picture with 5 % to spare.
+    Camera camera;
+    camera.name = "framing";
+    camera.y_fov = std::numbers::pi_v<float> / 4.0f;
+    const float radius = std::max(0.5f * glm::length(scene.bounds.extent()), 1e-6f);
+    const glm::vec3 z = glm::normalize(glm::vec3(0.35f, 0.3f, 1.0f));  // towards the camera
+    const glm::vec3 x = glm::normalize(glm::cross(glm::vec3(0.0f, 1.0f, 0.0f), z));
+    const float distance = 1.05f * radius / std::sin(0.5f * camera.y_fov);
+    camera.world_from_camera = glm::mat4(glm::vec4(x, 0.0f), glm::vec4(glm::cross(z, x), 0.0f), glm::vec4(z, 0.0f),
+                                         glm::vec4(scene.bounds.center() + distance * z, 1.0f));
+    camera.z_near = 0.02f * distance;
+    camera.z_far = distance + 2.0f * radius;
+    return camera;
+}
+
+}  // namespace conebook
