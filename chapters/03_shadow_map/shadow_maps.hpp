@@ -1,0 +1,45 @@
+// What the lights see: a depth map for every light, so that any point can ask whether a light sees it.
+#pragma once
+
+#include "app/parameters.hpp"
+#include "common/shadow_structs.glsl"
+#include "gl/gpu_scene.hpp"
+
+namespace conebook {
+
+struct ShadowMapParams {
+    // Texels along a side of every map, 64 .. 8192: a texel's width is the smallest shadow that is drawn.
+    int shadow_map_size = 1024;
+    // Constant bias in texel widths, 0 .. 10. The receiver's own plane is compared texel by texel, so only curvature
+    // and rounding are left for it.
+    float shadow_bias = 0.25f;
+    // Compare each texel with the receiver's plane there. Off: with the receiver's depth alone, and acne appears.
+    bool shadow_receiver_plane = true;
+};
+void add_parameters(ParameterTable& table, ShadowMapParams& params);
+
+// Directional and spot lights have one layer of a depth array, point lights (and spots wider than 75 degrees) six.
+class ShadowMaps {
+public:
+    ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params);
+    void draw(const GpuScene& scene);
+    // For shaders that include common/shadow_map.glsl: storage 4 and 14, unit 14.
+    void bind(const gl::Program& program) const;
+
+    int layers() const { return int(layers_.size()); }
+    const gl::Texture& depth() const { return depth_; }  // DEPTH32F array, 1 near .. 0 far
+    std::vector<gl::Resource> resources() const { return {depth_.resource()}; }
+
+private:
+    ShadowMapParams params_;
+    gl::Program program_;
+    std::vector<shared::ShadowLayer> layers_;
+    gl::Buffer layer_buffer_, light_buffer_;
+    gl::Texture depth_;
+    gl::Framebuffer framebuffer_;
+};
+
+// The matrices of a light's layers: depth 1 near, 0 far. `bounds` are the scene's. Empty for a light that gives nothing.
+std::vector<glm::mat4> shadow_matrices(const Light& light, const Bounds& bounds, int map_size);
+
+}  // namespace conebook

@@ -1,0 +1,24 @@
+#version 450 core
+// What the light needs to know of the surface under each pixel, written once. No light is computed here.
+#include "common/surface.glsl"
+#include "common/octahedral.glsl"
+
+// snippet: attachments
+layout(location = 0) out vec2 out_normal;               // RG16_SNORM, octahedral
+layout(location = 1) out vec2 out_geometric_normal;     // RG16_SNORM, octahedral
+layout(location = 2) out vec4 out_base_color_metallic;  // SRGB8_ALPHA8: rgb is encoded by the hardware, a is linear
+layout(location = 3) out vec4 out_f0_f90;               // SRGB8_ALPHA8
+layout(location = 4) out vec4 out_emission_roughness;   // RGBA16F
+
+const float kLargestHalf = 65504.0;  // beyond it a 16 bit float is infinite
+
+void main()
+{
+    Surface s = read_surface();
+    out_normal = octahedral_encode(s.normal);
+    out_geometric_normal = octahedral_encode(s.geometric_normal);
+    out_base_color_metallic = vec4(s.material.base_color, s.material.metallic);
+    out_f0_f90 = vec4(s.material.f0, s.material.f90);
+    out_emission_roughness = vec4(min(s.material.emission, vec3(kLargestHalf)), s.material.roughness);
+}
+// end snippet

@@ -1,0 +1,78 @@
+// Visibility of a light by its shadow map: taught in chapter 03, used wherever direct light is computed.
+#include "common/shadow_structs.glsl"
+#include "common/scene_structs.glsl"
+
+layout(std430, binding = 4) readonly buffer ShadowLayerBuffer { ShadowLayer shadow_layers[]; };
+layout(std430, binding = 14) readonly buffer ShadowLightBuffer { ShadowLight shadow_lights[]; };
+layout(binding = kShadowMapUnit) uniform sampler2DArray shadow_maps;
+uniform float shadow_bias_texels;    // constant bias, in widths of a texel
+uniform int shadow_receiver_plane;   // 1: compare with the receiver's plane; 0: constant bias only, the acne
+
+// Which of the six maps of a point light sees the direction.
+int cube_face(vec3 d)
+{
+    vec3 a = abs(d);
+    int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    return 2 * axis + (d[axis] < 0.0 ? 1 : 0);
+}
+
+// Depth of the receiver's own plane at texels around the projected point. A projection maps planes to planes, so in
+// (u, v, depth) the plane through the point is  depth = depth_0 + g . (uv - uv_0):  no slope is too steep for it.
+vec2 plane_gradient(mat4 clip_from_scene, vec3 position, vec3 normal)
+{
+    vec3 t = normalize(abs(normal.x) > 0.5 ? cross(normal, vec3(0.0, 1.0, 0.0)) : cross(normal, vec3(1.0, 0.0, 0.0)));
+    vec3 b = cross(normal, t);
+    vec4 c = clip_from_scene * vec4(position, 1.0), ct = clip_from_scene * vec4(t, 0.0),
+         cb = clip_from_scene * vec4(b, 0.0);
+    // Derivatives of clip.xyz / clip.w along the two tangents.
+    vec3 dt = (ct.xyz * c.w - c.xyz * ct.w) / (c.w * c.w), db = (cb.xyz * c.w - c.xyz * cb.w) / (c.w * c.w);
+    float determinant = dt.x * db.y - dt.y * db.x;
+    vec2 gradient = vec2(dt.z * db.y - db.z * dt.y, db.z * dt.x - dt.z * db.x) / determinant;
+    return abs(determinant) > 1e-20 ? 2.0 * gradient : vec2(0.0);  // ndc spans 2, uv spans 1
+}
+
+// Depth that corresponds to the width of one texel at the point: ndc depth over metres times metres over texel.
+float depth_per_texel(mat4 clip_from_scene, vec4 clip, LightData light, float size)
+{
+    // Rows of the matrix: the lengths are ndc over metres where w = 1.
+    vec3 row_x = vec3(clip_from_scene[0].x, clip_from_scene[1].x, clip_from_scene[2].x);
+    vec3 row_z = vec3(clip_from_scene[0].z, clip_from_scene[1].z, clip_from_scene[2].z);
+    vec3 row_w = vec3(clip_from_scene[0].w, clip_from_scene[1].w, clip_from_scene[2].w);
+    vec3 ahead = int(light.position.w) == kLightDirectional ? normalize(row_z) : normalize(row_w);
+    float texel_m = 2.0 / size * clip.w / length(row_x);
+    return abs(dot(row_z, ahead) * clip.w - clip.z * dot(row_w, ahead)) / (clip.w * clip.w) * texel_m;
+}
+
+// Share of the light that reaches the point, 0..1: percentage-closer filtering (Reeves et al. 1987) of 3 x 3 texels
+// whose weights move with the point. Outside its maps a light is not shadowed (a spot gives no light there).
+float shadow_map_visibility(int light_index, LightData light, vec3 position, vec3 geometric_normal)
+{
+    ivec4 layers = shadow_lights[light_index].layers;
+    int layer = layers.x + (layers.y == 6 ? cube_face(position - light.position.xyz) : 0);
+    mat4 clip_from_scene = shadow_layers[layer].clip_from_scene;
+    vec4 clip = clip_from_scene * vec4(position, 1.0);
+    if (layers.y == 0 || clip.w <= 0.0) return 1.0;
+    vec3 ndc = clip.xyz / clip.w;
+    vec2 size = vec2(textureSize(shadow_maps, 0).xy);
+    vec2 texel = (0.5 * ndc.xy + 0.5) * size;
+    vec2 gradient = plane_gradient(clip_from_scene, position, geometric_normal) / size;  // depth per texel
+    gradient = shadow_receiver_plane == 1 ? gradient : vec2(0.0);
+
+    float bias = shadow_bias_texels * depth_per_texel(clip_from_scene, clip, light, size.x);
+
+    // snippet: filter
+    vec2 corner = floor(texel - 1.5), f = texel - 1.5 - corner;
+    float lit = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        vec2 tap = corner + vec2(i & 3, i >> 2);
+        vec2 from_point = tap + 0.5 - texel;
+        float own_depth = ndc.z + dot(gradient, from_point);
+        ivec2 safe = clamp(ivec2(tap), ivec2(0), ivec2(size) - 1);
+        float nearest = texelFetch(shadow_maps, ivec3(safe, layer), 0).r;
+        float weight_x = (i & 3) == 0 ? 1.0 - f.x : (i & 3) == 3 ? f.x : 1.0;
+        float weight_y = (i >> 2) == 0 ? 1.0 - f.y : (i >> 2) == 3 ? f.y : 1.0;
+        lit += own_depth + bias >= nearest ? weight_x * weight_y : 0.0;
+    }
+    // end snippet
+    return lit / 9.0;
+}
