@@ -15,8 +15,8 @@ void GBuffer::resize(glm::ivec2 size)
     depth_ = gl::texture_2d("g-buffer depth", GL_DEPTH_COMPONENT32F, size);
     normal_ = gl::texture_2d("g-buffer normal", GL_RG16_SNORM, size);
     geometric_normal_ = gl::texture_2d("g-buffer geometric normal", GL_RG16_SNORM, size);
-    base_color_metallic_ = gl::texture_2d("g-buffer base colour, metallic", GL_SRGB8_ALPHA8, size);
-    f0_f90_ = gl::texture_2d("g-buffer f0, f90", GL_SRGB8_ALPHA8, size);
+    base_color_metallic_ = gl::texture_2d("g-buffer base colour, metallic", GL_RGBA16, size);
+    f0_f90_ = gl::texture_2d("g-buffer f0, f90", GL_RGBA16, size);
     emission_roughness_ = gl::texture_2d("g-buffer emission, roughness", GL_RGBA16F, size);
     framebuffer_ = gl::Framebuffer(
         "g-buffer", {&normal_, &geometric_normal_, &base_color_metallic_, &f0_f90_, &emission_roughness_}, &depth_);
@@ -34,9 +34,7 @@ void GBuffer::draw(const GpuScene& scene, const shared::CameraData& camera)
 
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
-    glEnable(GL_FRAMEBUFFER_SRGB);  // encodes what goes to the sRGB attachments, and nothing else
     scene.draw(program_, Culling::back_of_single_sided);
-    glDisable(GL_FRAMEBUFFER_SRGB);
     glDisable(GL_DEPTH_TEST);
 }
 

@@ -23,6 +23,11 @@ bool is_srgb(int slot)
     return slot == shared::kBaseColorSlot || slot == shared::kEmissionSlot || slot == shared::kSpecularColorSlot;
 }
 
+// Materials are bound one at a time as uniform blocks; 256 is the coarsest alignment that OpenGL 4.5 allows a driver
+// (table 23.71, UNIFORM_BUFFER_OFFSET_ALIGNMENT).
+constexpr std::size_t kMaterialStride = sizeof(shared::MaterialData);
+static_assert(kMaterialStride % 256 == 0);
+
 shared::MaterialData material_data(const Material& m)
 {
     shared::MaterialData data{};
@@ -198,7 +203,6 @@ GpuScene::GpuScene(const Scene& scene)
 
 void GpuScene::bind_buffers() const
 {
-    material_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 0);
     light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 1);
     vertex_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 2);
     index_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 3);
@@ -212,7 +216,8 @@ void GpuScene::bind_lights(const gl::Program& program) const
 
 void GpuScene::bind_material(const gl::Program& program, int material) const
 {
-    program.set("material_index", material);
+    glBindBufferRange(GL_UNIFORM_BUFFER, 3, material_buffer_.id(), GLintptr(material) * GLintptr(kMaterialStride),
+                      sizeof(shared::MaterialData));
     const auto& bindings = bindings_[std::size_t(material)];
     for (GLuint unit = 0; unit < bindings.size(); ++unit) {
         const BoundTexture& bound = bindings[unit];

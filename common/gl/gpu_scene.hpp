@@ -17,8 +17,8 @@ class GpuScene {
 public:
     explicit GpuScene(const Scene& scene);
 
-    // Bind buffers (materials: storage 0, lights: storage 1) and draw every triangle with `program`, material by
-    // material: uniform int material_index, textures on units 0..6 (kBaseColorSlot ... kCoverageUnit).
+    // Bind buffers (lights: storage 1) and draw every triangle with `program`, material by material: uniform block 3,
+    // textures on units 0..6 (kBaseColorSlot ... kCoverageUnit).
     // Vertex attributes: 0 position, 1 normal, 2 tangent, 3 uv0, 4 uv1, 5 colour (see Vertex). For shaders that pull
     // vertices themselves: uniform uint first_index, vertices on storage 2 (18 floats each), indices on storage 3.
     void draw(const gl::Program& program, Culling culling) const;

@@ -6,8 +6,8 @@
 // snippet: attachments
 layout(location = 0) out vec2 out_normal;               // RG16_SNORM, octahedral
 layout(location = 1) out vec2 out_geometric_normal;     // RG16_SNORM, octahedral
-layout(location = 2) out vec4 out_base_color_metallic;  // SRGB8_ALPHA8: rgb is encoded by the hardware, a is linear
-layout(location = 3) out vec4 out_f0_f90;               // SRGB8_ALPHA8
+layout(location = 2) out vec4 out_base_color_metallic;  // RGBA16, linear
+layout(location = 3) out vec4 out_f0_f90;               // RGBA16
 layout(location = 4) out vec4 out_emission_roughness;   // RGBA16F
 
 const float kLargestHalf = 65504.0;  // beyond it a 16 bit float is infinite

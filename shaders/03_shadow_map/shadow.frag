@@ -8,7 +8,7 @@ in float vertex_alpha;
 
 void main()
 {
-    MaterialData m = materials[material_index];
+    MaterialData m = drawn_material;
     float alpha = m.base_color.a * vertex_alpha * texture(base_color_texture, texture_uv(m, kBaseColorSlot, uv0, uv1)).a;
     if ((m.flags & kMaterialMasked) != 0 && alpha < m.emission.a) discard;
 }

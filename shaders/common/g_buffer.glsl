@@ -53,7 +53,7 @@ GBufferSample read_g_buffer(ivec2 pixel)
     s.depth = -(camera.view_from_scene * vec4(s.position, 1.0)).z;
     s.normal = octahedral_decode(texelFetch(g_normal, pixel, 0).rg);
     s.geometric_normal = octahedral_decode(texelFetch(g_geometric_normal, pixel, 0).rg);
-    vec4 base = texelFetch(g_base_color_metallic, pixel, 0);  // sRGB formats give linear values
+    vec4 base = texelFetch(g_base_color_metallic, pixel, 0);
     vec4 fresnel = texelFetch(g_f0_f90, pixel, 0);
     vec4 emission = texelFetch(g_emission_roughness, pixel, 0);
     s.base_color = base.rgb;

@@ -5,8 +5,8 @@
 layout(std430, binding = 4) readonly buffer ShadowLayerBuffer { ShadowLayer shadow_layers[]; };
 layout(std430, binding = 14) readonly buffer ShadowLightBuffer { ShadowLight shadow_lights[]; };
 layout(binding = kShadowMapUnit) uniform sampler2DArray shadow_maps;
-uniform float shadow_bias_texels;    // constant bias, in widths of a texel
-uniform int shadow_receiver_plane;   // 1: compare with the receiver's plane; 0: constant bias only, the acne
+uniform float shadow_bias_texels;    // how far the point moves along its normal, in widths of a texel
+uniform int shadow_receiver_plane;   // 1: compare with the receiver's plane; 0: with the point's depth alone, the acne
 
 // Which of the six maps of a point light sees the direction.
 int cube_face(vec3 d)
@@ -31,16 +31,11 @@ vec2 plane_gradient(mat4 clip_from_scene, vec3 position, vec3 normal)
     return abs(determinant) > 1e-20 ? 2.0 * gradient : vec2(0.0);  // ndc spans 2, uv spans 1
 }
 
-// Depth that corresponds to the width of one texel at the point: ndc depth over metres times metres over texel.
-float depth_per_texel(mat4 clip_from_scene, vec4 clip, LightData light, float size)
+// Width of a texel at the point, m. A row of the matrix is as long as ndc units per metre where clip.w is 1.
+float texel_width_m(mat4 clip_from_scene, float clip_w, float size)
 {
-    // Rows of the matrix: the lengths are ndc over metres where w = 1.
     vec3 row_x = vec3(clip_from_scene[0].x, clip_from_scene[1].x, clip_from_scene[2].x);
-    vec3 row_z = vec3(clip_from_scene[0].z, clip_from_scene[1].z, clip_from_scene[2].z);
-    vec3 row_w = vec3(clip_from_scene[0].w, clip_from_scene[1].w, clip_from_scene[2].w);
-    vec3 ahead = int(light.position.w) == kLightDirectional ? normalize(row_z) : normalize(row_w);
-    float texel_m = 2.0 / size * clip.w / length(row_x);
-    return abs(dot(row_z, ahead) * clip.w - clip.z * dot(row_w, ahead)) / (clip.w * clip.w) * texel_m;
+    return 2.0 / size * clip_w / length(row_x);
 }
 
 // Share of the light that reaches the point, 0..1: percentage-closer filtering (Reeves et al. 1987) of 3 x 3 texels
@@ -52,13 +47,17 @@ float shadow_map_visibility(int light_index, LightData light, vec3 position, vec
     mat4 clip_from_scene = shadow_layers[layer].clip_from_scene;
     vec4 clip = clip_from_scene * vec4(position, 1.0);
     if (layers.y == 0 || clip.w <= 0.0) return 1.0;
-    vec3 ndc = clip.xyz / clip.w;
     vec2 size = vec2(textureSize(shadow_maps, 0).xy);
+    // snippet: normal_offset
+    // Step off the surface. Along the light that is offset / cos(theta) of clearance, more where the light grazes and
+    // every error of the map grows with tan(theta); across, the shadow moves by at most the offset itself.
+    position += shadow_bias_texels * texel_width_m(clip_from_scene, clip.w, size.x) * geometric_normal;
+    clip = clip_from_scene * vec4(position, 1.0);
+    // end snippet
+    vec3 ndc = clip.xyz / clip.w;
     vec2 texel = (0.5 * ndc.xy + 0.5) * size;
     vec2 gradient = plane_gradient(clip_from_scene, position, geometric_normal) / size;  // depth per texel
     gradient = shadow_receiver_plane == 1 ? gradient : vec2(0.0);
-
-    float bias = shadow_bias_texels * depth_per_texel(clip_from_scene, clip, light, size.x);
 
     // snippet: filter
     vec2 corner = floor(texel - 1.5), f = texel - 1.5 - corner;
@@ -66,12 +65,12 @@ float shadow_map_visibility(int light_index, LightData light, vec3 position, vec
     for (int i = 0; i < 16; ++i) {
         vec2 tap = corner + vec2(i & 3, i >> 2);
         vec2 from_point = tap + 0.5 - texel;
-        float own_depth = ndc.z + dot(gradient, from_point);
+        float own_depth = max(ndc.z + dot(gradient, from_point), 0.0);  // a steep plane may leave the map's far end
         ivec2 safe = clamp(ivec2(tap), ivec2(0), ivec2(size) - 1);
         float nearest = texelFetch(shadow_maps, ivec3(safe, layer), 0).r;
         float weight_x = (i & 3) == 0 ? 1.0 - f.x : (i & 3) == 3 ? f.x : 1.0;
         float weight_y = (i >> 2) == 0 ? 1.0 - f.y : (i >> 2) == 3 ? f.y : 1.0;
-        lit += own_depth + bias >= nearest ? weight_x * weight_y : 0.0;
+        lit += own_depth >= nearest ? weight_x * weight_y : 0.0;
     }
     // end snippet
     return lit / 9.0;

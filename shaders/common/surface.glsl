@@ -50,7 +50,7 @@ vec3 facet_normal(vec3 view, vec3 shading_normal)
 // Discards where an alpha mask is cut out.
 Surface read_surface()
 {
-    MaterialData m = materials[material_index];
+    MaterialData m = drawn_material;
     Surface s;
     s.position = vertex_position;
     s.view = direction_to_eye(vertex_position);

@@ -1,0 +1,36 @@
+// Where the voxels are: a tight grid of cubic voxels around the scene.
+#pragma once
+
+#include "app/parameters.hpp"
+#include "common/voxel_structs.glsl"
+#include "gl/handles.hpp"
+#include "scene/scene.hpp"
+
+namespace conebook {
+
+struct VoxelGridParams {
+    int voxels = 128;  // along the longest side, 4 .. 512; memory grows with its cube, detail in proportion
+};
+void add_parameters(ParameterTable& table, VoxelGridParams& params);
+
+// Voxel size v = longest side / (voxels - 1): the outermost surfaces lie in the middle of the outermost voxels, so that
+// a wall on the boundary is held by one layer of voxels, whole; along the other axes about so. Each side is then padded to a multiple of
+// 2^(levels - 1), so that the levels of the pyramid halve exactly; the padding stays empty.
+shared::GridData make_grid(const Bounds& bounds, const VoxelGridParams& params);
+
+// The grid as passes bind it: uniform block 1 (shaders/common/voxel_grid.glsl).
+class VoxelGrid {
+public:
+    VoxelGrid(const Bounds& bounds, const VoxelGridParams& params);
+    const shared::GridData& data() const { return data_; }
+    glm::ivec3 size() const { return glm::ivec3(data_.size); }
+    int levels() const { return data_.size.w; }
+    float voxel_size_m() const { return data_.origin.w; }
+    void bind() const { buffer_.bind(GL_UNIFORM_BUFFER, 1); }
+
+private:
+    shared::GridData data_;
+    gl::Buffer buffer_;
+};
+
+}  // namespace conebook

@@ -1,0 +1,114 @@
+// 05_atomic_averaging: a thousand fragments in one voxel, and one right answer whatever their order.
+//
+// Each face of a voxel keeps 64-bit fixed point sums over its fragments; a fragment is the part of a triangle inside the
+// voxel and weighs as much as its area A:
+//
+//     mean albedo = sum_i A_i rho_i / sum_i A_i      (the same for emission, normal and position)
+//
+// Page: docs/05_atomic_averaging.md
+#include <cmath>
+
+#include "01_first_light/tone_map.hpp"
+#include "05_atomic_averaging/voxel_faces.hpp"
+#include "app/app.hpp"
+
+using namespace conebook;
+
+namespace {
+
+// What a view shows of a face: offsets are those of shared::VoxelFace.
+FaceQuantity quantity_of(const std::string& view, const VoxelFaces& faces)
+{
+    const int stride = int(sizeof(shared::VoxelFace) / sizeof(glm::vec4));
+    if (view == "normal") return {&faces.faces(), stride, 1, 1, nullptr};
+    if (view == "emission") return {&faces.faces(), stride, 2, 0, nullptr};
+    if (view == "area") return {&faces.faces(), stride, 0, 2, nullptr};
+    return {&faces.faces(), stride, 0, 0, nullptr};
+}
+
+// Root mean square difference between an 8-bit mean and the exact one, over voxels with a single face.
+double rms_error(const NaiveAverage& naive, const VoxelFaces& faces)
+{
+    const std::vector<GLuint> texels = gl::read_uints(naive.color()), entries = gl::read_uints(faces.face_index());
+    const auto exact = faces.faces().read<shared::VoxelFace>();
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        const GLuint mask = entries[i] & 63u;
+        if (mask == 0u || (mask & (mask - 1u)) != 0u) continue;
+        for (int c = 0; c < 3; ++c) {
+            const double got = double(texels[i] >> (8 * c) & 255u) / 255.0;
+            const double difference = got - double(exact[entries[i] >> 6].albedo_area[c]);
+            sum += difference * difference;
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+try {
+    VoxelGridParams grid_params;
+    VoxelizerParams voxelizer_params;
+    DisplayParams display_params;
+    int averaging = int(Averaging::sums);
+    ParameterTable parameters;
+    add_parameters(parameters, grid_params);
+    add_parameters(parameters, voxelizer_params);
+    add_parameters(parameters, display_params);
+    parameters.add("averaging", averaging, {"sums", "compare_and_swap", "racing_store"},
+                   "how final and base_color are averaged; all later chapters use the sums");
+
+    App app(argc, argv,
+            {"05_atomic_averaging",
+             {{"final", Encoding::color, "mean albedo of the voxels' faces"},
+              {"voxels", Encoding::color, "the same"},
+              {"base_color", Encoding::color, "the same"},
+              {"normal", Encoding::data, "mean normal, 0.5 n + 0.5"},
+              {"emission", Encoding::radiance, "mean emitted radiance"},
+              {"area", Encoding::data, "area inside the voxel, in voxel sides squared"}},
+             parameters});
+
+    const GpuScene scene(app.scene());
+    const VoxelGrid grid(scene.bounds(), grid_params);
+    ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
+    VoxelFaces faces(app.shaders(), grid, voxelizer);
+    std::vector<NaiveAverage> naive;
+    if (averaging != int(Averaging::sums)) naive.emplace_back(app.shaders(), scene, grid, Averaging(averaging));
+    FaceViewPass face_view(app.shaders());
+    ToneMapPass tone_map(app.shaders());
+
+    while (app.next_frame()) {
+        // Triangles -> occupied voxels.
+        app.pass("voxelize", [&] { voxelizer.run(scene, grid); });
+
+        // Occupied voxels -> list of faces -> sums over fragments -> means.
+        app.pass("average", [&] { faces.run(scene, grid, voxelizer); });
+        for (NaiveAverage& average : naive) app.pass("naive average", [&] { average.run(scene, grid, voxelizer); });
+
+        // Faces -> picture.
+        const gl::Buffer camera("camera", std::vector{app.camera()});
+        FaceQuantity quantity = quantity_of(app.view().name, faces);
+        const bool shows_albedo = app.shows("final") || app.shows("voxels") || app.shows("base_color");
+        if (!naive.empty() && shows_albedo) quantity = {nullptr, 1, 0, 3, &naive.front().color()};
+        const gl::Texture* linear = nullptr;
+        app.pass("voxel view", [&] {
+            linear = &face_view.run(grid, voxelizer.occupancy(), faces, quantity, camera, app.size());
+        });
+        app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
+    }
+
+    const shared::VoxelStatistics counted = faces.counted();
+    std::vector<Count> counts = {{"occupied voxels", double(counted.voxels), ""},
+                                 {"occupied faces", double(counted.faces), ""},
+                                 {"fragments", double(counted.fragments), ""},
+                                 {"triangles without area", double(counted.degenerate), ""}};
+    if (!naive.empty()) counts.push_back({"RMS error of the naive mean", rms_error(naive.front(), faces), ""});
+    app.statistics().set_counts(counts);
+    for (const auto& part : {scene.resources(), voxelizer.resources(), faces.resources()})
+        app.statistics().add_resources(part);
+    return app.finish();
+} catch (const std::exception& error) {
+    return conebook::report_failure(error);
+}

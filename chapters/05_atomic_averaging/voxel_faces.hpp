@@ -1,0 +1,85 @@
+// The list of occupied voxels and what their faces are made of: means over all fragments, exact and repeatable.
+#pragma once
+
+#include <map>
+
+#include "04_conservative_voxelization/conservative_voxelizer.hpp"
+
+namespace conebook {
+
+// Lists of what is occupied. Passes over voxels work on these instead of on the whole grid.
+class VoxelFaces {
+public:
+    // `shaders` and `voxelizer` must outlive it.
+    VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+
+    // Make the lists from voxelizer.occupancy(), add up all fragments, divide. Reads two counters back to the CPU to
+    // size the buffers; throws std::runtime_error when the scene has more faces than an index holds (2^26).
+    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+
+    std::size_t voxel_count() const { return counted_.voxels; }
+    std::size_t face_count() const { return counted_.faces; }
+    const shared::VoxelStatistics& counted() const { return counted_; }
+
+    const gl::Texture& face_index() const { return face_index_; }      // r32ui, grid size: first face << 6 | mask
+    const gl::Buffer& voxel_list() const { return voxel_list_; }       // uint a voxel: pack_voxel()
+    const gl::Buffer& face_list() const { return face_list_; }         // uint a face: pack_voxel() | face << 27
+    const gl::Buffer& faces() const { return faces_; }                 // shared::VoxelFace a face
+    const gl::Buffer& statistics_buffer() const { return *statistics_; }
+    const gl::Buffer& face_groups() const { return face_groups_; }     // indirect dispatch: 64 faces a work group
+    const gl::Buffer& voxel_groups() const { return voxel_groups_; }   // indirect dispatch: 64 voxels a work group
+    std::vector<gl::Resource> resources() const;
+
+    // Storage 5 (counters), 7 (voxel list), 8 (face list), 10 (faces), kFaceIndexUnit.
+    void bind() const;
+
+private:
+    void make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    const gl::Program& accumulate_program(const GpuScene& scene, Voxelizer voxelizer);
+    gl::Shaders* shaders_;  // of the caller, for the programs below
+    gl::Program count_blocks_, scan_blocks_, write_list_, resolve_;
+    std::map<std::pair<bool, bool>, gl::Program> accumulate_;  // (textures, emission): no more than the scene needs
+    gl::Texture face_index_;
+    gl::Buffer block_counts_, voxel_list_, face_list_, sums_, faces_, face_groups_, voxel_groups_;
+    const gl::Buffer* statistics_;  // of the voxelizer
+    shared::VoxelStatistics counted_{};
+};
+
+// How chapter 05 averages, for comparison; later chapters use the sums.
+enum class Averaging : int { sums = 0, compare_and_swap = 1, racing_store = 2 };
+
+// The two naive ways, into one RGBA8 texel a voxel (both faces of a sheet share it).
+class NaiveAverage {
+public:
+    NaiveAverage(gl::Shaders& shaders, const GpuScene& scene, const VoxelGrid& grid, Averaging averaging);
+    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    const gl::Texture& color() const { return color_; }  // r32ui holding RGBA8
+
+private:
+    gl::Program program_;
+    gl::Texture color_;
+};
+
+// Which part of a face to show.
+struct FaceQuantity {
+    const gl::Buffer* buffer = nullptr;  // of vec4
+    int stride = 1, offset = 0;          // in vec4
+    int show = 0;                        // 0 colour, 1 direction, 2 alpha, 3 `packed` instead
+    const gl::Texture* packed = nullptr;
+};
+
+class FaceViewPass {
+public:
+    explicit FaceViewPass(gl::Shaders& shaders);
+    // RGBA16F, alpha 0 where no voxel is met.
+    const gl::Texture& run(const VoxelGrid& grid, const gl::Texture& occupancy, const VoxelFaces& faces,
+                           const FaceQuantity& quantity, const gl::Buffer& camera, glm::ivec2 size);
+
+private:
+    gl::Program program_;
+    gl::VertexArray no_vertices_;
+    gl::Texture color_;
+    gl::Framebuffer framebuffer_;
+};
+
+}  // namespace conebook

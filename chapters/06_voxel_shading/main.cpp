@@ -1,0 +1,81 @@
+// 06_voxel_shading: the lights reach the voxels, and every occupied face knows what it sends out.
+//
+// One thread for each occupied face, none for the empty ones:
+//
+//     L = Le + (rho / pi) * sum_lights V E_l max(n.l, 0)        W/(sr m^2)
+//
+// with the visibility V from shadow maps or from rays through the voxels themselves.
+// Page: docs/06_voxel_shading.md
+#include "01_first_light/tone_map.hpp"
+#include "06_voxel_shading/voxel_shading.hpp"
+#include "app/app.hpp"
+
+using namespace conebook;
+
+int main(int argc, char** argv)
+try {
+    VoxelGridParams grid_params;
+    VoxelizerParams voxelizer_params;
+    VoxelShadingParams shading_params;
+    ShadowMapParams shadow_params;
+    DisplayParams display_params;
+    ParameterTable parameters;
+    add_parameters(parameters, grid_params);
+    add_parameters(parameters, voxelizer_params);
+    add_parameters(parameters, shading_params);
+    add_parameters(parameters, shadow_params);
+    add_parameters(parameters, display_params);
+
+    App app(argc, argv,
+            {"06_voxel_shading",
+             {{"final", Encoding::radiance, "radiance of the voxels: emission and direct light"},
+              {"voxels", Encoding::radiance, "the same"},
+              {"visibility", Encoding::data, "share of the lights' light that reaches the face"},
+              {"base_color", Encoding::color, "mean albedo"},
+              {"normal", Encoding::data, "mean normal, 0.5 n + 0.5"},
+              {"emission", Encoding::radiance, "mean emitted radiance"}},
+             parameters});
+
+    const GpuScene scene(app.scene());
+    const VoxelGrid grid(scene.bounds(), grid_params);
+    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
+    VoxelFaces faces(app.shaders(), grid, voxelizer);
+    VoxelShading shading(app.shaders(), shading_params);
+    FaceViewPass face_view(app.shaders());
+    ToneMapPass tone_map(app.shaders());
+
+    while (app.next_frame()) {
+        // What the lights see.
+        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+
+        // Triangles -> occupied voxels -> list of faces with their mean material.
+        app.pass("voxelize", [&] { voxelizer.run(scene, grid); });
+        app.pass("average", [&] { faces.run(scene, grid, voxelizer); });
+
+        // Material and lights -> radiance of every face.
+        app.pass("voxel shading", [&] { shading.run(scene, grid, voxelizer, faces, shadow_maps); });
+
+        // Faces -> picture. Offsets within shared::VoxelFace are in vec4.
+        constexpr int kFaceStride = int(sizeof(shared::VoxelFace) / sizeof(glm::vec4));
+        FaceQuantity quantity{&shading.radiance(), 1, 0, 0, nullptr};
+        if (app.shows("visibility")) quantity.show = 2;
+        if (app.shows("base_color")) quantity = {&faces.faces(), kFaceStride, 0, 0, nullptr};
+        if (app.shows("normal")) quantity = {&faces.faces(), kFaceStride, 1, 1, nullptr};
+        if (app.shows("emission")) quantity = {&faces.faces(), kFaceStride, 2, 0, nullptr};
+        const gl::Buffer camera("camera", std::vector{app.camera()});
+        const gl::Texture* linear = nullptr;
+        app.pass("voxel view", [&] {
+            linear = &face_view.run(grid, voxelizer.occupancy(), faces, quantity, camera, app.size());
+        });
+        app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
+    }
+
+    app.statistics().set_counts({{"occupied voxels", double(faces.voxel_count()), ""},
+                                 {"occupied faces", double(faces.face_count()), ""}});
+    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxelizer.resources(), faces.resources(), shading.resources()})
+        app.statistics().add_resources(part);
+    return app.finish();
+} catch (const std::exception& error) {
+    return conebook::report_failure(error);
+}

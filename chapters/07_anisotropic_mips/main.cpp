@@ -1,0 +1,64 @@
+// 07_anisotropic_mips: the light of the voxels, seen from six sides, at every size.
+//
+// For each direction, two voxels behind each other and four columns beside each other:
+//
+//     c = 1/4 sum_columns (c_front + (A - A_front) L_back),   A = min(A_front + A_back, 1)
+//
+// c: radiance times coverage, A: covered share of the cross-section.
+// Page: docs/07_anisotropic_mips.md
+#include "01_first_light/tone_map.hpp"
+#include "07_anisotropic_mips/lit_voxels.hpp"
+
+using namespace conebook;
+
+int main(int argc, char** argv)
+try {
+    LitVoxelParams voxel_params;
+    ShadowMapParams shadow_params;
+    VoxelViewParams level_params;
+    PyramidViewParams direction_params;
+    DisplayParams display_params;
+    ParameterTable parameters;
+    add_parameters(parameters, voxel_params);
+    add_parameters(parameters, shadow_params);
+    add_parameters(parameters, level_params);
+    add_parameters(parameters, direction_params);
+    add_parameters(parameters, display_params);
+
+    App app(argc, argv,
+            {"07_anisotropic_mips",
+             {{"final", Encoding::radiance, "radiance of one level (level=) in one direction (direction=)"},
+              {"voxels", Encoding::radiance, "the same"},
+              {"coverage", Encoding::data, "covered share of the voxels' cross-section"}},
+             parameters});
+
+    const GpuScene scene(app.scene());
+    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    LitVoxels voxels(app.shaders(), scene, voxel_params);
+    PyramidViewPass pyramid_view(app.shaders());
+    ToneMapPass tone_map(app.shaders());
+
+    while (app.next_frame()) {
+        // What the lights see.
+        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+
+        // Triangles -> voxels -> radiance -> six pyramids.
+        voxels.run(app, scene, shadow_maps);
+
+        // One level and direction -> picture.
+        const gl::Buffer camera("camera", std::vector{app.camera()});
+        const gl::Texture* linear = nullptr;
+        app.pass("pyramid view", [&] {
+            linear = &pyramid_view.run(voxels.grid(), voxels.voxelizer().occupancy(), voxels.pyramid(),
+                                       level_params.level, direction_params, app.shows("coverage"), camera, app.size());
+        });
+        app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
+    }
+
+    app.statistics().set_counts(voxels.counts());
+    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources()})
+        app.statistics().add_resources(part);
+    return app.finish();
+} catch (const std::exception& error) {
+    return conebook::report_failure(error);
+}

@@ -1,0 +1,89 @@
+// 08_diffuse_cones: indirect diffuse light, one bounce, by a few wide cones from every pixel.
+//
+// The hemisphere above a surface is divided among cones k with weights W_k that sum to 1:
+//
+//     L_o = rho * sum_k W_k L_k,     L_k = integral of (L sigma exp(-tau)) along the cone + exp(-tau_end) L_sky
+//
+// Page: docs/08_diffuse_cones.md
+#include "01_first_light/tone_map.hpp"
+#include "02_g_buffer/direct_lighting.hpp"
+#include "08_diffuse_cones/diffuse_cones.hpp"
+#include "07_anisotropic_mips/lit_voxels.hpp"
+
+using namespace conebook;
+
+int main(int argc, char** argv)
+try {
+    LitVoxelParams voxel_params;
+    ShadowMapParams shadow_params;
+    ConeParams cone_params;
+    DiffuseConeParams diffuse_params;
+    CompositeParams composite_params;
+    DisplayParams display_params;
+    ParameterTable parameters;
+    add_parameters(parameters, voxel_params);
+    add_parameters(parameters, shadow_params);
+    add_parameters(parameters, cone_params);
+    add_parameters(parameters, diffuse_params);
+    add_parameters(parameters, composite_params);
+    add_parameters(parameters, display_params);
+
+    App app(argc, argv,
+            {"08_diffuse_cones",
+             {{"final", Encoding::radiance, "direct and indirect diffuse light and emission"},
+              {"direct", Encoding::radiance, "direct light alone"},
+              {"indirect_diffuse", Encoding::radiance, "indirect diffuse light alone"},
+              {"ambient_occlusion", Encoding::data, "share of the hemisphere that is open"},
+              {"emission", Encoding::radiance, "emitted radiance"}},
+             parameters});
+
+    const GpuScene scene(app.scene());
+    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    LitVoxels voxels(app.shaders(), scene, voxel_params);
+    GBuffer g_buffer(app.shaders(), app.size());
+    DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
+    const DiffuseConeUniforms cones(cone_params);
+    DiffuseCones diffuse_cones(app.shaders(), voxels.grid(), diffuse_params);
+    CompositePass composite(app.shaders());
+    ToneMapPass tone_map(app.shaders());
+
+    while (app.next_frame()) {
+        // What the lights see.
+        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+
+        // Triangles -> voxels -> radiance -> six pyramids.
+        voxels.run(app, scene, shadow_maps);
+
+        // What the camera sees.
+        g_buffer.resize(app.size());
+        app.pass("g-buffer", [&] { g_buffer.draw(scene, app.camera()); });
+
+        // Light straight from the lights.
+        const gl::Texture* direct = nullptr;
+        app.pass("direct light", [&] {
+            shadow_maps.bind(direct_lighting.program());
+            direct = &direct_lighting.run(g_buffer, scene, LightingOutput::direct);
+        });
+
+        // Light by way of one other surface: cones through the pyramids.
+        const gl::Texture* gathered = nullptr;
+        app.pass("diffuse cones", [&] {
+            gathered = &diffuse_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cones, cone_params);
+        });
+
+        // Sum.
+        const gl::Texture* linear = nullptr;
+        app.pass("composite", [&] {
+            linear = &composite.run(g_buffer, direct, gathered, nullptr, parts_of_view(app.view().name),
+                                    composite_params, cone_params.sky);
+        });
+        app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
+    }
+
+    app.statistics().set_counts(voxels.counts());
+    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(), direct_lighting.resources(), diffuse_cones.resources()})
+        app.statistics().add_resources(part);
+    return app.finish();
+} catch (const std::exception& error) {
+    return conebook::report_failure(error);
+}

@@ -1,0 +1,75 @@
+#include "09_specular_cones/directional_albedo.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "common/material_constants.glsl"
+
+namespace conebook {
+
+namespace {
+
+// Van der Corput's radical inverse in base 2.
+double radical_inverse(std::uint32_t bits)
+{
+    double value = 0.0, digit = 0.5;
+    for (; bits != 0; bits >>= 1, digit *= 0.5) value += double(bits & 1u) * digit;
+    return value;
+}
+
+// A normal visible from v, with probability in proportion to its projected area (Heitz 2018, listing 1).
+glm::dvec3 visible_normal(glm::dvec3 v, double alpha, double u1, double u2)
+{
+    const glm::dvec3 vh = glm::normalize(glm::dvec3(alpha * v.x, alpha * v.y, v.z));
+    const double length2 = vh.x * vh.x + vh.y * vh.y;
+    const glm::dvec3 t1 = length2 > 0.0 ? glm::dvec3(-vh.y, vh.x, 0.0) / std::sqrt(length2) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 t2 = glm::cross(vh, t1);
+    const double r = std::sqrt(u1), phi = 2.0 * std::numbers::pi * u2, s = 0.5 * (1.0 + vh.z);
+    const double p1 = r * std::cos(phi);
+    const double p2 = (1.0 - s) * std::sqrt(1.0 - p1 * p1) + s * r * std::sin(phi);
+    const glm::dvec3 nh = p1 * t1 + p2 * t2 + std::sqrt(std::max(0.0, 1.0 - p1 * p1 - p2 * p2)) * vh;
+    return glm::normalize(glm::dvec3(alpha * nh.x, alpha * nh.y, std::max(0.0, nh.z)));
+}
+
+// Smith's Lambda for GGX (Heitz 2014, eq. 72).
+double smith_lambda(double cos_theta, double alpha)
+{
+    const double cos2 = cos_theta * cos_theta;
+    return 0.5 * (std::sqrt(1.0 + alpha * alpha * (1.0 - cos2) / cos2) - 1.0);
+}
+
+}  // namespace
+
+glm::dvec2 directional_albedo(double n_dot_v, double alpha, int samples)
+{
+    const double cos_v = std::clamp(n_dot_v, 1e-4, 1.0);
+    const glm::dvec3 v(std::sqrt(1.0 - cos_v * cos_v), 0.0, cos_v);
+    glm::dvec2 sum(0.0);
+    for (int i = 0; i < samples; ++i) {
+        const glm::dvec3 h = visible_normal(v, alpha, (i + 0.5) / samples, radical_inverse(std::uint32_t(i)));
+        const double v_dot_h = glm::dot(v, h);
+        const glm::dvec3 l = 2.0 * v_dot_h * h - v;
+        if (l.z <= 0.0) continue;
+        // Visible normals leave G2 / G1 of the estimator (Heitz 2018, eq. 19).
+        const double lambda_v = smith_lambda(cos_v, alpha), lambda_l = smith_lambda(l.z, alpha);
+        const double g = (1.0 + lambda_v) / (1.0 + lambda_v + lambda_l);
+        const double grazing = std::pow(1.0 - v_dot_h, 5.0);  // Schlick 1994
+        sum += g * glm::dvec2(1.0 - grazing, grazing);
+    }
+    return sum / double(samples);
+}
+
+std::vector<glm::vec2> directional_albedo_table(int size, int samples)
+{
+    std::vector<glm::vec2> table;
+    for (int row = 0; row < size; ++row)
+        for (int column = 0; column < size; ++column) {
+            const double roughness = std::max((row + 0.5) / size, double(kMinRoughness));
+            table.push_back(glm::vec2(directional_albedo((column + 0.5) / size, roughness * roughness, samples)));
+        }
+    return table;
+}
+
+}  // namespace conebook

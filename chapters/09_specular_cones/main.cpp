@@ -1,0 +1,98 @@
+// 09_specular_cones: glossy reflection by one cone a pixel, from mirror to matte.
+//
+// The GGX lobe around the mirror direction r becomes a cone that holds the share p of it; its mean radiance is weighted
+// with the lobe's directional albedo, which a table holds:
+//
+//     L_o = (F0 x + F90 y) * L_cone(r),     tan(theta_h) = alpha sqrt(p / (1 - p)),   half angle = 2 theta_h
+//
+// Page: docs/09_specular_cones.md
+#include "01_first_light/tone_map.hpp"
+#include "02_g_buffer/direct_lighting.hpp"
+#include "07_anisotropic_mips/lit_voxels.hpp"
+#include "09_specular_cones/specular_cones.hpp"
+
+using namespace conebook;
+
+int main(int argc, char** argv)
+try {
+    LitVoxelParams voxel_params;
+    ShadowMapParams shadow_params;
+    ConeParams cone_params;
+    DiffuseConeParams diffuse_params;
+    SpecularConeParams specular_params;
+    CompositeParams composite_params;
+    DisplayParams display_params;
+    ParameterTable parameters;
+    add_parameters(parameters, specular_params);
+    add_parameters(parameters, voxel_params);
+    add_parameters(parameters, shadow_params);
+    add_parameters(parameters, cone_params);
+    add_parameters(parameters, diffuse_params);
+    add_parameters(parameters, composite_params);
+    add_parameters(parameters, display_params);
+
+    App app(argc, argv,
+            {"09_specular_cones",
+             {{"final", Encoding::radiance, "direct, indirect diffuse and indirect specular light, emission"},
+              {"direct", Encoding::radiance, "direct light alone"},
+              {"indirect_diffuse", Encoding::radiance, "indirect light through the diffuse lobe"},
+              {"indirect_specular", Encoding::radiance, "indirect light through the specular lobe"},
+              {"ambient_occlusion", Encoding::data, "share of the hemisphere that is open"},
+              {"emission", Encoding::radiance, "emitted radiance"}},
+             parameters});
+
+    const GpuScene scene(app.scene());
+    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    LitVoxels voxels(app.shaders(), scene, voxel_params);
+    GBuffer g_buffer(app.shaders(), app.size());
+    DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
+    const DiffuseConeUniforms cones(cone_params);
+    DiffuseCones diffuse_cones(app.shaders(), voxels.grid(), diffuse_params);
+    SpecularCones specular_cones(app.shaders());
+    CompositePass composite(app.shaders());
+    ToneMapPass tone_map(app.shaders());
+
+    while (app.next_frame()) {
+        // What the lights see.
+        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+
+        // Triangles -> voxels -> radiance -> six pyramids.
+        voxels.run(app, scene, shadow_maps);
+
+        // What the camera sees, and what of it the lights reach.
+        const gl::Texture* direct = nullptr;
+        g_buffer.resize(app.size());
+        app.pass("g-buffer", [&] { g_buffer.draw(scene, app.camera()); });
+        app.pass("direct light", [&] {
+            shadow_maps.bind(direct_lighting.program());
+            direct = &direct_lighting.run(g_buffer, scene, LightingOutput::direct);
+        });
+
+        // Wide cones for the diffuse lobe.
+        const gl::Texture *gathered = nullptr, *specular = nullptr;
+        app.pass("diffuse cones", [&] {
+            gathered = &diffuse_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cones, cone_params);
+        });
+
+        // One cone along the mirror direction for the specular lobe.
+        app.pass("specular cones", [&] {
+            specular = &specular_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cone_params, specular_params);
+        });
+
+        // Sum.
+        const gl::Texture* linear = nullptr;
+        app.pass("composite", [&] {
+            linear = &composite.run(g_buffer, direct, gathered, specular, parts_of_view(app.view().name),
+                                    composite_params, cone_params.sky);
+        });
+        app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
+    }
+
+    app.statistics().set_counts(voxels.counts());
+    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(),
+                             direct_lighting.resources(), diffuse_cones.resources(), specular_cones.resources()})
+        app.statistics().add_resources(part);
+    return app.finish();
+} catch (const std::exception& error) {
+    return conebook::report_failure(error);
+}

@@ -1,0 +1,80 @@
+// 10_soft_shadows: a cone to every light, as wide as the light looks, and the shadow's edge is as soft as it should be.
+//
+//     V = exp(-tau along the cone),     tan(half angle) = light radius / distance
+//
+// beside the shadow maps of chapter 03 and the visibility that the voxels of chapter 06 keep.
+// Page: docs/10_soft_shadows.md
+#include "01_first_light/tone_map.hpp"
+#include "10_soft_shadows/soft_shadows.hpp"
+
+using namespace conebook;
+
+int main(int argc, char** argv)
+try {
+    LitVoxelParams voxel_params;
+    ShadowMapParams shadow_map_params;
+    SoftShadowParams shadow_params;
+    ConeParams cone_params;
+    CompositeParams composite_params;
+    DisplayParams display_params;
+    shadow_params.shadows = int(ShadowMethod::cone);
+    ParameterTable parameters;
+    add_parameters(parameters, shadow_params);
+    add_parameters(parameters, voxel_params);
+    add_parameters(parameters, shadow_map_params);
+    add_parameters(parameters, cone_params);
+    add_parameters(parameters, composite_params);
+    add_parameters(parameters, display_params);
+
+    App app(argc, argv,
+            {"10_soft_shadows",
+             {{"final", Encoding::radiance, "direct light with the shadows chosen by shadows=, and emission"},
+              {"direct", Encoding::radiance, "direct light alone"},
+              {"visibility", Encoding::data, "mean visible share of the lights"},
+              {"emission", Encoding::radiance, "emitted radiance"}},
+             parameters});
+
+    const GpuScene scene(app.scene());
+    ShadowMaps shadow_maps(app.shaders(), scene, shadow_map_params);
+    LitVoxels voxels(app.shaders(), scene, voxel_params);
+    GBuffer g_buffer(app.shaders(), app.size());
+    SoftShadowLighting lighting(app.shaders(), voxels.grid(), ShadowMethod(shadow_params.shadows));
+    CompositePass composite(app.shaders());
+    ToneMapPass tone_map(app.shaders());
+
+    while (app.next_frame()) {
+        // What the lights see.
+        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+
+        // Triangles -> voxels -> radiance -> six pyramids.
+        voxels.run(app, scene, shadow_maps);
+
+        // What the camera sees.
+        g_buffer.resize(app.size());
+        app.pass("g-buffer", [&] { g_buffer.draw(scene, app.camera()); });
+
+        // Cones to the lights.
+        const gl::Texture* direct = nullptr;
+        app.pass("direct light", [&] {
+            direct = &lighting.run(g_buffer, scene, voxels, shadow_maps, cone_params, shadow_params,
+                                   app.shows("visibility"));
+        });
+
+        // Sum; the visibility is shown as it is.
+        const gl::Texture* linear = direct;
+        if (!app.shows("visibility"))
+            app.pass("composite", [&] {
+                linear = &composite.run(g_buffer, direct, nullptr, nullptr, parts_of_view(app.view().name),
+                                        composite_params, cone_params.sky);
+            });
+        app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
+    }
+
+    app.statistics().set_counts(voxels.counts());
+    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(),
+                             lighting.resources()})
+        app.statistics().add_resources(part);
+    return app.finish();
+} catch (const std::exception& error) {
+    return conebook::report_failure(error);
+}

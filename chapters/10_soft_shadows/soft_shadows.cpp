@@ -1,0 +1,81 @@
+#include "10_soft_shadows/soft_shadows.hpp"
+
+#include "gl/pixel_pass.hpp"
+
+namespace conebook {
+
+void add_parameters(ParameterTable& table, SoftShadowParams& params)
+{
+    table.add("shadows", params.shadows, {"map", "cone", "volume"}, "how direct light is shadowed");
+    table.add("light_radius", params.light_radius, 0.001, 10.0, "m", "radius of point and spot lights, for cones");
+    table.add("light_angle", params.light_angle, 0.05, 60.0, "deg", "full angle of directional lights, for cones");
+    table.add("shadow_cones", params.shadow_cones, 1, 16, "cones", "to each light");
+    table.add("shadow_net_faces", params.shadow_net_faces, "faces along the cone cancel those against it; off: stripes");
+}
+
+SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders, const VoxelGrid& grid, ShadowMethod method)
+    : method_(method),
+      lighting_(shaders.load({"common/fullscreen.vert", "10_soft_shadows/soft_lighting.frag"},
+                             {{"METHOD", std::to_string(int(method))}, {"PLAIN", "0"}}))
+{
+    if (method_ != ShadowMethod::volume) return;
+    fill_volume_ = shaders.load({"10_soft_shadows/visibility_volume.comp"});
+    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
+    visibility_volume_ = gl::texture_3d("visibility volume", GL_RGBA8, size);
+    visibility_volume_.set_filter(GL_LINEAR, GL_LINEAR);
+}
+
+void SoftShadowLighting::fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading)
+{
+    visibility_volume_.clear();
+    grid.bind();
+    faces.bind();
+    shading.visibility().bind(GL_SHADER_STORAGE_BUFFER, 12);
+    visibility_volume_.bind_image(0, 0, GL_WRITE_ONLY);
+    fill_volume_.use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
+    glDispatchComputeIndirect(0);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    visibility_volume_.bind(16);
+}
+
+const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuScene& scene, const LitVoxels& voxels,
+                                           const ShadowMaps& shadow_maps, const ConeParams& cone_params,
+                                           const SoftShadowParams& params, bool show_visibility)
+{
+    return run(g_buffer, scene, voxels.grid(), voxels.faces(), voxels.shading(), voxels.pyramid(), shadow_maps,
+               cone_params, params, show_visibility);
+}
+
+const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuScene& scene, const VoxelGrid& grid,
+                                           const VoxelFaces& faces, const VoxelShading& shading,
+                                           const LightPyramid& pyramid, const ShadowMaps& shadow_maps,
+                                           const ConeParams& cone_params, const SoftShadowParams& params,
+                                           bool show_visibility)
+{
+    gl::fit_to_pixels(color_, framebuffer_, "softly shadowed light", GL_RGBA16F, g_buffer.size());
+    if (method_ == ShadowMethod::volume) fill_volume(grid, faces, shading);
+    g_buffer.bind();
+    grid.bind();
+    pyramid.bind();
+    scene.bind_lights(lighting_);
+    shadow_maps.bind(lighting_);
+    set_cone_march(lighting_, cone_params);
+    lighting_.set("start_offset", cone_params.start_offset);
+    lighting_.set("light_radius", params.light_radius);
+    lighting_.set("light_half_angle", glm::radians(0.5f * params.light_angle));
+    lighting_.set("shadow_cones", params.shadow_cones);
+    lighting_.set("net_faces", params.shadow_net_faces);
+    lighting_.set("show_visibility", show_visibility);
+    gl::draw_pixels(lighting_, framebuffer_, no_vertices_, g_buffer.size());
+    return color_;
+}
+
+std::vector<gl::Resource> SoftShadowLighting::resources() const
+{
+    std::vector<gl::Resource> all = {color_.resource()};
+    if (visibility_volume_) all.push_back(visibility_volume_.resource());
+    return all;
+}
+
+}  // namespace conebook

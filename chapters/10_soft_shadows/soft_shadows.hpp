@@ -1,0 +1,51 @@
+// Shadows with soft edges: cones from the surface to the light, beside shadow maps and the kept visibility.
+#pragma once
+
+#include "07_anisotropic_mips/lit_voxels.hpp"
+#include "08_diffuse_cones/diffuse_cones.hpp"
+
+namespace conebook {
+
+enum class ShadowMethod : int { map = 0, cone = 1, volume = 2 };
+
+struct SoftShadowParams {
+    // map: chapter 03; cone: one cone a light; volume: the visibility of chapter 06 (first three lights), coarse.
+    int shadows = int(ShadowMethod::map);
+    // Radius of point and spot lights in m, 0.001 .. 10: glTF's lights are points, so their size is given here.
+    float light_radius = 0.05f;
+    // Full angle of directional lights in degrees, 0.05 .. 60; the sun's is 0.53.
+    float light_angle = 0.53f;
+    // Cones to each light, 1 .. 16: with more, the edge of a shadow depends less on where it falls in a voxel.
+    int shadow_cones = 4;
+    // Subtract the faces that look along the cone from those that look against it. Off: slanted surfaces shadow
+    // themselves, in stripes.
+    bool shadow_net_faces = true;
+};
+void add_parameters(ParameterTable& table, SoftShadowParams& params);
+
+class SoftShadowLighting {
+public:
+    SoftShadowLighting(gl::Shaders& shaders, const VoxelGrid& grid, ShadowMethod method);
+
+    // RGBA16F of the g-buffer's size: radiance of direct light, or the mean visible share of the lights (0..1).
+    // Of `cone_params`, step and start_offset count.
+    const gl::Texture& run(const GBuffer& g_buffer, const GpuScene& scene, const LitVoxels& voxels,
+                           const ShadowMaps& shadow_maps, const ConeParams& cone_params,
+                           const SoftShadowParams& params, bool show_visibility);
+    // The same for voxels that are not in one hand.
+    const gl::Texture& run(const GBuffer& g_buffer, const GpuScene& scene, const VoxelGrid& grid,
+                           const VoxelFaces& faces, const VoxelShading& shading, const LightPyramid& pyramid,
+                           const ShadowMaps& shadow_maps, const ConeParams& cone_params,
+                           const SoftShadowParams& params, bool show_visibility);
+    std::vector<gl::Resource> resources() const;
+
+private:
+    void fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
+    ShadowMethod method_;
+    gl::Program lighting_, fill_volume_;
+    gl::VertexArray no_vertices_;
+    gl::Texture visibility_volume_, color_;
+    gl::Framebuffer framebuffer_;
+};
+
+}  // namespace conebook

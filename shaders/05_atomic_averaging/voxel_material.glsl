@@ -1,0 +1,63 @@
+// The material of a fragment: at its centre of area, textures averaged over about its own size, in linear light.
+#include "common/material.glsl"
+
+struct VoxelMaterial {
+    vec3 albedo;     // diffuse reflectance rho
+    vec3 emission;   // radiance, W/(sr m^2)
+    vec3 normal;     // interpolated, unit; no normal map: its details are smaller than voxels
+    float coverage;  // share of the fragment that an alpha mask lets stay
+    int sides;       // 1, or 2 when double-sided
+};
+
+// Of a point in the triangle's plane, turned grid space; clamped to the triangle.
+vec3 barycentric(GridTriangle t, vec3 p)
+{
+    float inverse = 1.0 / max(dot(t.normal, t.normal), 1e-30);
+    float b1 = dot(cross(p - t.v0, t.v2 - t.v0), t.normal) * inverse;
+    float b2 = dot(cross(t.v1 - t.v0, p - t.v0), t.normal) * inverse;
+    vec3 b = clamp(vec3(1.0 - b1 - b2, b1, b2), 0.0, 1.0);
+    return b / (b.x + b.y + b.z);
+}
+
+#if TEXTURES
+// Level of detail at which a texel is as large as the fragment: half the log2 of the texels on it.
+float fragment_lod(GridTriangle t, TriangleAttributes a, float area, ivec2 texels)
+{
+    vec2 e = (a.uv1.xy - a.uv0.xy) * vec2(texels), f = (a.uv2.xy - a.uv0.xy) * vec2(texels);
+    float texels_per_area = abs(e.x * f.y - e.y * f.x) / max(length(t.normal), 1e-30);
+    return 0.5 * log2(max(texels_per_area * area, 1e-6));
+}
+#endif
+
+VoxelMaterial voxel_material(GridTriangle t, TriangleAttributes a, vec3 point, float area)
+{
+    MaterialData m = drawn_material;
+    vec3 b = barycentric(t, point);
+    VoxelMaterial v;
+    v.normal = normalize(mat3(a.normal0, a.normal1, a.normal2) * b + 1e-6 * axis_from_z(t.normal, t.axis));
+    v.sides = (m.flags & kMaterialDoubleSided) != 0 ? 2 : 1;
+    vec4 color = a.color0 * b.x + a.color1 * b.y + a.color2 * b.z;
+    vec4 base = m.base_color * color;
+    vec3 emission = m.emission.rgb;
+    float metallic = m.metallic;
+#if TEXTURES
+    vec4 uv = a.uv0 * b.x + a.uv1 * b.y + a.uv2 * b.z;
+#define SAMPLE_SLOT(t2d, slot) \
+    textureLod(t2d, texture_uv(m, slot, uv.xy, uv.zw), fragment_lod(t, a, area, textureSize(t2d, 0)))
+    base *= SAMPLE_SLOT(base_color_texture, kBaseColorSlot);
+    metallic *= SAMPLE_SLOT(metallic_roughness_texture, kMetallicRoughnessSlot).b;
+    emission *= SAMPLE_SLOT(emission_texture, kEmissionSlot).rgb;
+    bool mask_is_texture = m.uv_row[2 * kBaseColorSlot + 1].w > 0.5;
+    float texture_coverage = SAMPLE_SLOT(coverage_texture, kBaseColorSlot).r;
+#else
+    const bool mask_is_texture = false;
+    const float texture_coverage = 1.0;
+#endif
+    bool masked = (m.flags & kMaterialMasked) != 0;
+    v.coverage = !masked ? 1.0 : mask_is_texture ? texture_coverage : base.a >= m.emission.a ? 1.0 : 0.0;
+    base = min(base, vec4(1.0));
+    bool unlit = (m.flags & kMaterialUnlit) != 0;  // shines with its colour and reflects nothing
+    v.albedo = unlit ? vec3(0.0) : base.rgb * (1.0 - metallic);
+    v.emission = unlit ? base.rgb : emission;
+    return v;
+}

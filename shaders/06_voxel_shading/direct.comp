@@ -1,0 +1,90 @@
+#version 450 core
+// Direct light of every occupied face: L = Le + (rho / pi) E, one thread a face.
+// SHADOWS 0: none, 1: shadow maps, 2: hard rays through the volume, 3: soft rays. DIRECTIONAL_LAMBERT 0 or 1.
+#include "common/scene_structs.glsl"
+#include "common/brdf.glsl"
+#include "common/light.glsl"
+#include "common/voxel_counters.glsl"
+#include "common/voxel_walk.glsl"
+#if SHADOWS == 1
+#include "common/shadow_map.glsl"
+#endif
+
+layout(local_size_x = 64) in;
+layout(std430, binding = 1) readonly buffer LightBuffer { LightData lights[]; };
+layout(std430, binding = 8) readonly buffer FaceListBuffer { uint face_list[]; };
+layout(std430, binding = 10) readonly buffer FaceBuffer { VoxelFace faces[]; };
+layout(std430, binding = 11) writeonly buffer RadianceBuffer { vec4 face_radiance[]; };     // rgb L, a visibility
+layout(std430, binding = 12) writeonly buffer VisibilityBuffer { uint face_visibility[]; };  // 4 x 8 bit: lights 0..3
+uniform int light_count;
+uniform float soft_sharpness;  // voxels
+
+// Cosine of the mean normal, or Villegas 2016, section 4.4: every axis weighs with the square of the normal's
+// component and receives what light falls on its side.
+float cosine_factor(vec3 n, vec3 l)
+{
+#if DIRECTIONAL_LAMBERT
+    return dot(n * n, max(sign(n) * l, vec3(0.0)));
+#else
+    return max(dot(n, l), 0.0);
+#endif
+}
+
+// Shadow rays start two voxels away from the face, where its own voxels no longer block them.
+const float kRayStart = 2.0;  // voxels
+
+float ray_visibility(vec3 position_grid, vec3 normal, vec3 direction, float distance_grid)
+{
+    vec3 start = position_grid + kRayStart * (normal + direction) * 0.5 + direction;
+#if SHADOWS == 2
+    VoxelHit hit = walk_voxels(start, direction, 0);
+    return hit.hit && hit.t < distance_grid - kRayStart ? 0.0 : 1.0;
+#else
+    // snippet: soft_ray
+    // Villegas 2016, section 4.4: each voxel hit adds (1 - v) * hit / distance, so that what is near the receiver makes
+    // a hard shadow and what is far away a soft one. A look, not a measurable quantity: there is no light size in it.
+    float shadow = 0.0, travelled = 0.0;
+    vec3 from = start;
+    for (int hits = 0; hits < 8 && shadow < 1.0; ++hits) {
+        VoxelHit hit = walk_voxels(from, direction, 0);
+        travelled += hit.t + 1.0;
+        if (!hit.hit || travelled > distance_grid - kRayStart) break;
+        shadow += (1.0 - shadow) * min(soft_sharpness / travelled, 1.0);
+        from += direction * (hit.t + 1.0);
+    }
+    return 1.0 - shadow;
+    // end snippet
+#endif
+}
+
+void main()
+{
+    uint place = gl_GlobalInvocationID.x;
+    if (place >= voxel_statistics.faces) return;
+    VoxelFace face = faces[place];
+    vec3 normal = face.normal.xyz;
+    vec3 position = scene_from_grid(face.position.xyz);
+    vec3 irradiance = vec3(0.0);
+    vec4 visibility = vec4(1.0);
+    float total = 0.0, unshadowed = 0.0;
+    for (int i = 0; i < light_count; ++i) {
+        LightSample light = sample_light(lights[i], position);
+        float visible = 1.0;
+#if SHADOWS == 1
+        visible = shadow_map_visibility(i, lights[i], position + 0.5 * grid.origin.w * normal, normal);
+#elif SHADOWS >= 2
+        visible = ray_visibility(face.position.xyz, normal, light.direction, light.distance / grid.origin.w);
+#endif
+        // snippet: irradiance
+        vec3 unblocked = light.irradiance * cosine_factor(normal, light.direction);
+        irradiance += visible * unblocked;
+        // end snippet
+        float weight = unblocked.r + unblocked.g + unblocked.b;
+        total += weight;
+        unshadowed += visible * weight;
+        if (i < 4) visibility[i] = visible;
+    }
+    vec3 radiance = face.emission.rgb + face.albedo_area.rgb / kPi * irradiance;
+    face_radiance[place] = vec4(radiance, total > 0.0 ? unshadowed / total : 1.0);
+    face_visibility[place] = packUnorm4x8(visibility);
+}

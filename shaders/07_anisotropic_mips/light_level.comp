@@ -1,0 +1,38 @@
+#version 450 core
+// Next level: of two voxels behind each other the front one hides as much of the back one as must overlap, four columns
+// beside each other are averaged (after Crassin 2011, section 5; Villegas 2016, section 4.6).
+#include "common/pyramid.glsl"
+
+layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+layout(rgba16f, binding = 0) writeonly uniform image3D light;
+uniform int level;
+
+vec4 finer(int face, ivec3 voxel) { return texelFetch(light_atlas, atlas_texel(face, voxel, level - 1), level - 1); }
+
+void main()
+{
+    ivec3 size = level_size(level);
+    ivec3 voxel = ivec3(gl_GlobalInvocationID);
+    int face = voxel.x / size.x;
+    voxel.x -= face * size.x;
+    if (face >= kFaceCount || any(greaterThanEqual(voxel, size))) return;
+    int axis = face >> 1;
+    ivec3 along = ivec3(face_normal(face | 1));
+    // The side that the face looks to is in front.
+    ivec3 to_front = (face & 1) == 1 ? along : ivec3(0), to_back = along - to_front;
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    for (int column = 0; column < 4; ++column) {
+        ivec3 child = 2 * voxel;
+        child[(axis + 1) % 3] += column & 1;
+        child[(axis + 2) % 3] += column >> 1;
+        // snippet: front_and_back
+        vec4 front = finer(face, child + to_front), back = finer(face, child + to_back);
+        float weight = column_weight(child, face, level - 1);
+        float seen = back.a > 0.0 ? min((1.0 - front.a) / back.a, 1.0) : 0.0;
+        sum += weight * (front + back * seen);
+        weights += weight;
+        // end snippet
+    }
+    imageStore(light, atlas_texel(face, voxel, level), sum / weights);
+}

@@ -1,0 +1,20 @@
+// The visibility that chapter 06 found for the faces, between the centres of voxels.
+#include "common/pyramid.glsl"
+
+layout(binding = 16) uniform sampler3D visibility_volume;  // rgb: visible shares of lights 0..2, a: 1 at a face
+
+// snippet: kept
+// Each of the three faces that the normal leans to counts with n_a^2, and only where there is one.
+float kept_visibility(vec3 position, vec3 normal, int light)
+{
+    if (light > 2) return 1.0;
+    vec3 p = clamp(grid_from_scene(position), vec3(0.5), vec3(grid.size.xyz) - 0.5);
+    vec4 sum = vec4(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        float face = 2.0 * float(axis) + (normal[axis] > 0.0 ? 1.0 : 0.0);
+        vec3 uvw = vec3((face * float(grid.size.x) + p.x) / 6.0, p.yz) / vec3(grid.size.xyz);
+        sum += normal[axis] * normal[axis] * textureLod(visibility_volume, uvw, 0.0);
+    }
+    return sum.a > 0.0 ? clamp(sum[light] / sum.a, 0.0, 1.0) : 1.0;
+}
+// end snippet

@@ -1,0 +1,161 @@
+// Follow a cone through the pyramids: taught in chapter 08, used by every later one.
+#include "common/pyramid.glsl"
+
+#if PLAIN
+layout(binding = kDirectionVolumeUnit) uniform sampler3D direction_volume[6];
+#endif
+
+uniform float step_factor;        // step over the diameter of the cone, or over a voxel where the cone is thinner
+uniform float ao_falloff;         // 1/m, lambda of ambient occlusion
+uniform vec3 sky_radiance;        // W/(sr m^2), what leaves the grid sees
+uniform int transmittance_model;  // 0: linear, 1: exponential
+
+struct Cone {
+    vec3 origin;      // grid space
+    vec3 direction;   // unit
+    float tan_half;   // tangent of half the aperture
+    float begin;      // voxels along the axis, 0 or less: a wall beside the origin is blurred over a voxel to either
+                      // side, and only a cone that has crossed all of it is stopped
+    vec3 beside;      // 1 for the axes that such a wall may have, 0 for the axis of the cone's own surface
+};
+
+struct ConeLight {
+    vec3 radiance;        // mean over the cone, W/(sr m^2), without the sky
+    float transmittance;  // share of the cone that reaches its end
+    float ambient;        // occlusion weighted by 1 / (1 + lambda r), 0..1
+};
+
+vec4 fetch(int face, vec3 p, vec3 size, int level)
+{
+#if PLAIN
+    for (int i = 0; i < 6; ++i)
+        if (i == face) return textureLod(direction_volume[i], p / size, float(level));
+    return vec4(0.0);
+#else
+    return textureLod(light_atlas, vec3((p.x / size.x + float(face)) / 6.0, p.yz / size.yz), float(level));
+#endif
+}
+
+// How far outside the bounds, in level voxels, the walls of the other axes still count.
+const float kCornerMargin = 0.2;
+
+// What a cone meets in a voxel's length: the three faces that look against the direction, each by |d_a|, since what
+// oriented surfaces cover goes with their projected area (Jakob et al. 2010, section 3). a: coverage, rgb: radiance
+// premultiplied with it. `axes`: 1 for those that count.
+vec4 sample_level(vec3 position, vec3 direction, int level, vec3 axes)
+{
+    float voxel = float(1 << level);
+    vec3 size = vec3(level_size(level));
+    // Beside the bounds the border is repeated, not empty: what is outside is not known.
+    vec3 low = floor(grid.content_min.xyz / voxel) + 0.5, high = floor(grid.content_max.xyz / voxel) + 0.5;
+    vec3 p = clamp(position / voxel, low, high);
+    // Across its own axis a wall on the bounds is met where it is, and not in the middle of the coarse voxel that holds
+    // it: the bounds are moved to the middles of the outermost voxels.
+    vec3 extent = max(grid.content_max.xyz - grid.content_min.xyz, vec3(1e-3));
+    vec3 across = mix(low, high, clamp((position - grid.content_min.xyz) / extent, 0.0, 1.0));
+    // Outside along one axis, only walls across that axis can still be in the way. In the corners two walls share a
+    // voxel, so a little way out both count.
+    vec3 margin = vec3(kCornerMargin * voxel);
+    vec3 inside = step(grid.content_min.xyz - margin, position) * step(position, grid.content_max.xyz + margin);
+    // Along its own axis what lies on the bounds fades out beyond them as in any linear filter, so that its coverages add
+    // up to what it covers.
+    vec3 outside = max(max(grid.content_min.xyz - position, position - grid.content_max.xyz), vec3(0.0)) / voxel;
+    vec3 weight = axes * abs(direction) * max(1.0 - outside, vec3(0.0)) * inside.yzx * inside.zxy;
+    ivec3 face = ivec3(0, 2, 4) + ivec3(lessThan(direction, vec3(0.0)));
+    return weight.x * fetch(face.x, vec3(across.x, p.yz), size, level) +
+           weight.y * fetch(face.y, vec3(p.x, across.y, p.z), size, level) +
+           weight.z * fetch(face.z, vec3(p.xy, across.z), size, level);
+}
+
+// Distance along the ray to where it leaves the scene's bounds, moved out by `margin`; all in voxels.
+float exit_distance(vec3 origin, vec3 direction, float margin)
+{
+    vec3 d = mix(direction, vec3(1e-6), lessThan(abs(direction), vec3(1e-6)));
+    vec3 far_side = mix(grid.content_min.xyz - margin, grid.content_max.xyz + margin, greaterThan(d, vec3(0.0)));
+    vec3 t = (far_side - origin) / d;
+    return max(min(t.x, min(t.y, t.z)), 0.0);
+}
+
+// How much of a cone a step stops that runs through the coverage A (it may exceed 1), `open` of the cone being left.
+// linear: what the filter has spread over neighbouring voxels belongs together. A wall blurred over two voxels covers u
+// here and 1 - u there, 1 in all, and stops the cone wholly, in the mean where it is; what covers a third stops a third,
+// however it is spread (linear transmittance of opaque surfaces: Vicini et al. 2021, section 4).
+// exponential: as in a fog, with twice the depth so that a blurred wall leaks little: tau = -2 ln(1 - A).
+// snippet: stopped_share
+float stopped_share(float coverage, float open)
+{
+    if (transmittance_model == 0) return min(coverage, open);
+    return open * (1.0 - pow(1.0 - min(coverage, 0.999), 2.0));
+}
+// end snippet
+
+// What is left of a cone that leaves the bounds through a wall is an error of the steps, or was begun inside the blurred
+// wall: the wall stops it. Where the bounds are open, or covered in part, it goes on to the sky.
+const float kClosed = 0.8;  // coverage from which on the bounds count as a wall, fully so at 1
+
+void close_at_bounds(Cone cone, inout ConeLight light)
+{
+    float exit = exit_distance(cone.origin, cone.direction, 0.0);
+    int level = clamp(int(log2(max(2.0 * exit * cone.tan_half, 1.0))), 0, grid.size.w - 1);
+    vec3 position = cone.origin + cone.direction * exit;
+    vec3 to_bounds = mix(position - grid.content_min.xyz, grid.content_max.xyz - position,
+                         greaterThan(cone.direction, vec3(0.0)));
+    vec3 a = abs(to_bounds);
+    vec3 axis = a.x <= a.y && a.x <= a.z ? vec3(1, 0, 0) : a.y <= a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
+    vec4 wall = sample_level(position, mix(vec3(-1.0), vec3(1.0), greaterThan(cone.direction, vec3(0.0))), level, axis);
+    float stopped = light.transmittance * smoothstep(kClosed, 1.0, wall.a);
+    light.radiance += wall.rgb * (stopped / max(wall.a, 1e-6));
+    light.transmittance -= stopped;
+}
+
+// Steps meet a wall's coverage with an error of up to a tenth: what is left of a cone after that is no gap.
+const float kNearlyStopped = 0.1;
+
+// March along the axis in steps as long as the cone is wide.
+// snippet: trace_cone
+ConeLight trace_cone(Cone cone, float end)
+{
+    ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0);
+    for (float t = cone.begin; t < end && light.transmittance > 0.0;) {
+        float stride = min(max(2.0 * t * cone.tan_half, 1.0) * step_factor, end - t + 1e-3), middle = t + 0.5 * stride;
+        float lod = log2(max(2.0 * middle * cone.tan_half, 1.0));
+        int level = min(int(lod), grid.size.w - 1), next = min(level + 1, grid.size.w - 1);
+        float blend = lod - float(level);
+        vec3 position = cone.origin + cone.direction * middle;
+        vec3 axes = middle < 0.0 ? cone.beside : vec3(1.0);
+        vec4 met = (1.0 - blend) * stride / float(1 << level) * sample_level(position, cone.direction, level, axes) +
+                   blend * stride / float(1 << next) * sample_level(position, cone.direction, next, axes);
+        float stopped = stopped_share(met.a, light.transmittance);
+        if (light.transmittance - stopped < kNearlyStopped) stopped = light.transmittance;
+        light.radiance += met.rgb * (stopped / max(met.a, 1e-6));
+        light.ambient += stopped / (1.0 + ao_falloff * max(middle, 0.0) * grid.origin.w);
+        light.transmittance -= stopped;
+        t += stride;
+    }
+    // end snippet
+    close_at_bounds(cone, light);
+    return light;
+}
+
+// A cone above a surface. It starts `offset` voxels beyond the middle of the surface's own voxel along the axis that the
+// normal is nearest to; from one voxel on, a sheet's other side does not reach it. Then a little behind that origin, as
+// far as it leans along the surface.
+Cone cone_above(vec3 position_grid, vec3 geometric_normal, float offset, vec3 direction, float tan_half)
+{
+    vec3 n = abs(geometric_normal);
+    vec3 axis = n.x >= n.y && n.x >= n.z ? vec3(1, 0, 0) : n.y >= n.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
+    float along = dot(axis, geometric_normal);
+    // Rounding must not decide between two voxels for a surface on the side between them: take the farther start.
+    vec3 voxel_middle = floor(position_grid + 0.01 * sign(along) * axis) + 0.5;
+    float from_middle = dot(axis, voxel_middle - position_grid);
+    vec3 origin = position_grid + geometric_normal * (from_middle / along + offset / abs(along));
+    float lean = length(direction - dot(direction, geometric_normal) * geometric_normal);
+    return Cone(origin, direction, tan_half, -lean, 1.0 - axis);
+}
+
+// Cones end where they have left the bounds by their own width: a wall there has then been passed wholly.
+float cone_end(Cone cone)
+{
+    float exit = exit_distance(cone.origin, cone.direction, 0.0);
+    return exit_distance(cone.origin, cone.direction, max(2.0 * exit * cone.tan_half, 1.0));
+}

@@ -1,0 +1,27 @@
+// The six directional pyramids: layout and weights. Taught in chapter 07.
+//
+// One atlas, rgba16f, holds the six side by side along x, for every level: texel (face * size.x + x, y, z).
+//   a    A: share of the voxel's cross-section that surfaces facing `face` cover, 0..1
+//   rgb  A L: their mean radiance L, W/(sr m^2), premultiplied with the coverage
+#include "common/voxel_grid.glsl"
+
+layout(binding = kLightAtlasUnit) uniform sampler3D light_atlas;
+
+ivec3 level_size(int level) { return grid.size.xyz >> level; }
+ivec3 atlas_texel(int face, ivec3 voxel, int level) { return ivec3(face * level_size(level).x, 0, 0) + voxel; }
+
+// Share of the voxel's length along `axis` that lies within the scene's bounds. Beyond them nothing is known, so what is
+// outside is left out of averages instead of being counted as empty: a wall that ends at the bounds stays whole.
+float inside_share(ivec3 voxel, int axis, int level)
+{
+    float size = float(1 << level), low = float(voxel[axis]) * size;
+    float inside = min(low + size, grid.content_max[axis]) - max(low, grid.content_min[axis]);
+    return clamp(inside / size, 1e-3, 1.0);
+}
+
+// Weight of a column of voxels along the face's axis in the mean over its cross-section.
+float column_weight(ivec3 voxel, int face, int level)
+{
+    int axis = face >> 1;
+    return inside_share(voxel, (axis + 1) % 3, level) * inside_share(voxel, (axis + 2) % 3, level);
+}

@@ -1,0 +1,6 @@
+// What a voxelization counts.
+#include "common/voxel_structs.glsl"
+
+layout(std430, binding = 5) buffer VoxelStatisticsBuffer { VoxelStatistics voxel_statistics; };
+
+void count_degenerate() { atomicAdd(voxel_statistics.degenerate, 1u); }

@@ -1,0 +1,53 @@
+// The voxel grid and the faces of its voxels, as C++ writes them and GLSL reads them.
+#ifdef __cplusplus
+#pragma once
+#endif
+#include "common/cpp_glsl.glsl"
+
+CONEBOOK_SHARED_BEGIN
+
+// Grid space: one unit is one voxel; voxel (i, j, k) is the half-open box [i, i+1) x [j, j+1) x [k, k+1).
+struct GridData {
+    vec4 origin;       // xyz: scene space position of grid space (0,0,0), w: voxel size in m
+    ivec4 size;        // xyz: voxels along each axis, a multiple of 2^(levels-1); w: levels of the pyramid
+    vec4 content_min;  // xyz: the scene's bounds in grid space
+    vec4 content_max;
+};
+
+// Texture units of the volumes.
+CONEBOOK_CONSTANT int kLightAtlasUnit = 20;
+CONEBOOK_CONSTANT int kOccupancyUnit = 22;
+CONEBOOK_CONSTANT int kFaceIndexUnit = 23;
+CONEBOOK_CONSTANT int kPackedColorUnit = 24;
+CONEBOOK_CONSTANT int kDirectionVolumeUnit = 24;  // six units
+
+// Face directions: 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z. A triangle belongs to the face that its normal is nearest to.
+CONEBOOK_CONSTANT int kFaceCount = 6;
+
+// One face of an occupied voxel: means over all fragments of that face, weighted by their area.
+struct VoxelFace {
+    vec4 albedo_area;  // rgb: diffuse reflectance rho, linear; a: area inside the voxel, in voxel sides squared
+    vec4 normal;       // xyz: unit mean normal
+    vec4 emission;     // rgb: radiance W/(sr m^2)
+    vec4 position;     // xyz: centroid in grid space
+};
+
+// Sums of one face as 64-bit fixed point numbers: word i is the low half of sum i, word kSumCount + i its high half,
+// which few fragments touch.
+CONEBOOK_CONSTANT int kSumArea = 0;
+CONEBOOK_CONSTANT int kSumAlbedo = 1;     // 3
+CONEBOOK_CONSTANT int kSumEmission = 4;   // 3
+CONEBOOK_CONSTANT int kSumNormal = 7;     // 3, of (n + 1)
+CONEBOOK_CONSTANT int kSumPosition = 10;  // 3, within the voxel, 0..1
+CONEBOOK_CONSTANT int kSumCount = 13;
+CONEBOOK_CONSTANT float kFixedPointOne = 1073741824.0;  // 2^30: a fragment's area is at most sqrt(3) (< 4 = 2^32 / 2^30)
+
+// Counters of one voxelization.
+struct VoxelStatistics {
+    uint fragments;    // pairs of triangle and voxel that overlap
+    uint degenerate;   // triangles without area, left out
+    uint voxels;       // occupied voxels
+    uint faces;        // occupied faces of them, one to six a voxel
+};
+
+CONEBOOK_SHARED_END

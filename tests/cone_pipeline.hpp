@@ -1,0 +1,102 @@
+// A scene made in code and what its cones gather: chapters 02 to 09 without a program around them. Header only.
+//
+//     ConePipeline pipeline(scene, camera, {128, 128}, 64);
+//     const ImageF gathered = pipeline.gathered(cone_params);                    // E / pi
+//     pipeline.look(other_camera);                                               // the same voxels
+//     const ImageF reflected = pipeline.reflected(cone_params, specular_params); // radiance
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "08_diffuse_cones/diffuse_cones.hpp"
+#include "09_specular_cones/specular_cones.hpp"
+#include "app/context.hpp"
+#include "gl/debug_log.hpp"
+#include "image/image.hpp"
+#include "scene_builder.hpp"
+#include "test_gl.hpp"
+
+namespace conebook {
+
+class ConePipeline {
+public:
+    ConePipeline(const Scene& scene, const Camera& camera, glm::ivec2 size, int voxels)
+        : shaders_(test_gl().shaders),
+          scene_(scene),
+          shadow_maps_(shaders_, scene_, {}),
+          grid_(scene_.bounds(), {voxels}),
+          voxelizer_(shaders_, grid_, {}),
+          faces_(shaders_, grid_, voxelizer_),
+          shading_(shaders_, {}),
+          pyramid_(shaders_, grid_, {}),
+          g_buffer_(shaders_, size),
+          diffuse_(shaders_, grid_, {}),
+          specular_(shaders_)
+    {
+        shadow_maps_.draw(scene_);
+        voxelizer_.run(scene_, grid_);
+        faces_.run(scene_, grid_, voxelizer_);
+        pyramid_.clear();
+        shading_.run(scene_, grid_, voxelizer_, faces_, shadow_maps_);
+        pyramid_.run(grid_, faces_, shading_.radiance());
+        look(camera);
+    }
+
+    void look(const Camera& camera) { g_buffer_.draw(scene_, camera_data(camera, g_buffer_.size())); }
+
+    // rgb: E / pi, the cosine-weighted mean radiance over the hemisphere, W/(sr m^2); a: ambient.
+    ImageF gathered(const ConeParams& params)
+    {
+        return read_picture(diffuse_.run(g_buffer_, grid_, pyramid_, DiffuseConeUniforms(params), params));
+    }
+    // rgb: radiance towards the camera, W/(sr m^2).
+    ImageF reflected(const ConeParams& params, const SpecularConeParams& specular_params = {})
+    {
+        return read_picture(specular_.run(g_buffer_, grid_, pyramid_, params, specular_params));
+    }
+    double voxel_size_m() const { return double(grid_.voxel_size_m()); }
+
+private:
+    gl::Shaders& shaders_;
+    GpuScene scene_;
+    ShadowMaps shadow_maps_;
+    VoxelGrid grid_;
+    ConservativeVoxelizer voxelizer_;
+    VoxelFaces faces_;
+    VoxelShading shading_;
+    LightPyramid pyramid_;
+    GBuffer g_buffer_;
+    DiffuseCones diffuse_;
+    SpecularCones specular_;
+};
+
+// Of one channel, over all pixels.
+struct Spread {
+    double mean = 0.0, deviation = 0.0, low = INFINITY, high = -INFINITY;
+};
+inline Spread spread_of(const ImageF& image, int channel = 0)
+{
+    Spread s;
+    double squares = 0.0;
+    for (const glm::vec4& pixel : image.pixels) {
+        const double v = double(pixel[channel]);
+        s.mean += v;
+        squares += v * v;
+        s.low = std::min(s.low, v);
+        s.high = std::max(s.high, v);
+    }
+    const auto count = double(image.pixels.size());
+    s.mean /= count;
+    s.deviation = std::sqrt(std::max(0.0, squares / count - s.mean * s.mean));
+    return s;
+}
+
+// Looks at one point: 0.1 degrees wide, so that all pixels show the same place.
+inline Camera at_point(const glm::vec3& eye, const glm::vec3& point) { return look_at(eye, point, 0.0017f); }
+
+}  // namespace conebook
