@@ -19,6 +19,8 @@ class GBufferViewPass {
 public:
     explicit GBufferViewPass(gl::Shaders& shaders);
 
+    const gl::Program& program() const { return program_; }
+
     // RGBA32F of one of the views above, nothing when the name is none of them. Normals are * 0.5 + 0.5, depth and
     // position in m, alpha 1 where there is a surface. Valid until the next call.
     const gl::Texture* run(const GBuffer& g_buffer, const std::string& view);

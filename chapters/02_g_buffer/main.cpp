@@ -16,7 +16,13 @@ using namespace conebook;
 
 namespace {
 
-ProgramInfo program_info(DisplayParams& display)
+struct Params {
+    DisplayParams display;
+    // Bits of a fixed point depth, 0..24; 0: the 32 bit float that is stored. Fewer show why it is one.
+    int depth_bits = 0;
+};
+
+ProgramInfo program_info(Params& params)
 {
     ProgramInfo info;
     info.name = "02_g_buffer";
@@ -24,7 +30,8 @@ ProgramInfo program_info(DisplayParams& display)
                   {"direct", Encoding::radiance, "reflected light of all lights, W/(sr m^2)"}};
     for (const std::vector<View>& views : {surface_views(), attachment_views()})
         info.views.insert(info.views.end(), views.begin(), views.end());
-    add_parameters(info.parameters, display);
+    add_parameters(info.parameters, params.display);
+    info.parameters.add("depth_bits", params.depth_bits, 0, 24, "bits", "read depth as fixed point; 0: as the float it is");
     return info;
 }
 
@@ -32,13 +39,15 @@ ProgramInfo program_info(DisplayParams& display)
 
 int main(int argc, char** argv)
 try {
-    DisplayParams display;
-    App app(argc, argv, program_info(display));
+    Params params;
+    App app(argc, argv, program_info(params));
     const GpuScene scene(app.scene());
     GBuffer g_buffer(app.shaders(), app.size());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::none);
     GBufferViewPass g_buffer_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
+    for (const gl::Program& program : {direct_lighting.program(), g_buffer_view.program()})
+        program.set("g_depth_bits", params.depth_bits);
 
     while (app.next_frame()) {
         const gl::Texture* linear = nullptr;
@@ -56,6 +65,7 @@ try {
             linear = &direct_lighting.run(g_buffer, scene, app.shows("direct") ? LightingOutput::direct
                                                                               : LightingOutput::direct_and_emission);
         });
+        // end snippet
 
         // Another view, if one was asked for.
         app.pass("view", [&] {
@@ -64,10 +74,9 @@ try {
 
         // Radiance to the display.
         app.pass("tone map", [&] {
-            picture = &tone_map.run(*linear, app.view().encoding, display, data_scale(app.view(), scene.bounds()));
+            picture = &tone_map.run(*linear, app.view().encoding, params.display, data_scale(app.view(), scene.bounds()));
         });
         app.show(*linear, *picture);
-        // end snippet
     }
 
     for (const auto& part : {scene.resources(), g_buffer.resources(), direct_lighting.resources(), tone_map.resources()})

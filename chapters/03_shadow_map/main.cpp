@@ -68,7 +68,8 @@ try {
                              direct_lighting.resources()})
         app.statistics().add_resources(part);
     app.statistics().set_counts({{"lights", double(scene.lights().size()), ""},
-                                 {"shadow maps", double(shadow_maps.layers()), ""}});
+                                 {"shadow maps", double(shadow_maps.layers()), ""},
+                                 {"shadow map side", double(shadow_maps.size()), "texels"}});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <glm/gtc/constants.hpp>
 
@@ -45,12 +46,29 @@ glm::mat4 orthographic(glm::vec3 low, glm::vec3 high)
     return m;
 }
 
+// All maps together stay below this, however many lights the scene has: their sides are halved until they do.
+constexpr std::size_t kLargestTotalBytes = std::size_t(1) << 30;
+constexpr int kSmallestMap = 64;  // texels
+
+int fitting_size(int wanted, std::size_t layers)
+{
+    GLint most_layers = 0;
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
+    if (layers > std::size_t(most_layers))
+        throw std::runtime_error("the scene's lights need " + std::to_string(layers) + " shadow maps, the driver has " +
+                                 std::to_string(most_layers));
+    int size = wanted;
+    while (size > kSmallestMap && layers * std::size_t(size) * std::size_t(size) * sizeof(float) > kLargestTotalBytes)
+        size /= 2;
+    return size;
+}
+
 }  // namespace
 
 void add_parameters(ParameterTable& table, ShadowMapParams& params)
 {
     table.add("shadow_map_size", params.shadow_map_size, 64, 8192, "texels", "along a side of every shadow map");
-    table.add("shadow_bias", params.shadow_bias, 0.0, 10.0, "texels", "constant bias of shadow maps");
+    table.add("shadow_bias", params.shadow_bias, 0.0, 10.0, "texels", "how far points move along their normal before the lookup");
     table.add("shadow_receiver_plane", params.shadow_receiver_plane, "compare texels with the receiver's plane");
 }
 
@@ -88,21 +106,27 @@ std::vector<glm::mat4> shadow_matrices(const Light& light, const Bounds& bounds,
 ShadowMaps::ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params)
     : params_(params), program_(shaders.load({"03_shadow_map/shadow.vert", "03_shadow_map/shadow.frag"}))
 {
+    std::size_t layer_count = 0;
+    for (const Light& light : scene.lights())
+        layer_count += shadow_matrices(light, scene.bounds(), params.shadow_map_size).size();
+    const int size = fitting_size(params.shadow_map_size, layer_count);
+
     std::vector<shared::ShadowLight> lights;
     for (const Light& light : scene.lights()) {
-        const std::vector<glm::mat4> matrices = shadow_matrices(light, scene.bounds(), params.shadow_map_size);
+        const std::vector<glm::mat4> matrices = shadow_matrices(light, scene.bounds(), size);
         lights.push_back({glm::ivec4(layers(), int(matrices.size()), 0, 0)});
         for (const glm::mat4& m : matrices) layers_.push_back({m});
     }
     layer_buffer_ = gl::Buffer("shadow layers", layers_);
     light_buffer_ = gl::Buffer("shadow lights", lights);
     depth_ = gl::Texture("shadow maps", GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F,
-                         {params.shadow_map_size, params.shadow_map_size, std::max(layers(), 1)});
+                         {size, size, std::max(layers(), 1)});
     framebuffer_ = gl::Framebuffer("shadow maps", {}, &depth_);
 }
 
 void ShadowMaps::draw(const GpuScene& scene)
 {
+    // snippet: draw
     framebuffer_.bind(depth_.size_2d());
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
@@ -113,9 +137,10 @@ void ShadowMaps::draw(const GpuScene& scene)
         const float farthest = 0.0f;
         glClearNamedFramebufferfv(framebuffer_.id(), GL_DEPTH, 0, &farthest);
         program_.set("clip_from_scene", layers_[std::size_t(layer)].clip_from_scene);
-        scene.draw(program_, Culling::none);
+        scene.draw(program_, Culling::none);  // both faces cast shadows
     }
     glDisable(GL_DEPTH_TEST);
+    // end snippet
 }
 
 void ShadowMaps::bind(const gl::Program& program) const

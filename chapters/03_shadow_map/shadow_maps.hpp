@@ -8,10 +8,11 @@
 namespace conebook {
 
 struct ShadowMapParams {
-    // Texels along a side of every map, 64 .. 8192: a texel's width is the smallest shadow that is drawn.
+    // Texels along a side of every map, 64 .. 8192: a texel's width is the smallest shadow that is drawn. Halved until
+    // all maps together fit into 1 GiB.
     int shadow_map_size = 1024;
-    // Constant bias in texel widths, 0 .. 10. The receiver's own plane is compared texel by texel, so only curvature
-    // and rounding are left for it.
+    // How far a point moves along its normal before it is looked up, in texel widths, 0 .. 10. The receiver's own plane
+    // is compared texel by texel, so only curvature and rounding are left for it; a shadow moves by as much.
     float shadow_bias = 0.25f;
     // Compare each texel with the receiver's plane there. Off: with the receiver's depth alone, and acne appears.
     bool shadow_receiver_plane = true;
@@ -19,6 +20,7 @@ struct ShadowMapParams {
 void add_parameters(ParameterTable& table, ShadowMapParams& params);
 
 // Directional and spot lights have one layer of a depth array, point lights (and spots wider than 75 degrees) six.
+// Throws std::runtime_error when the scene's lights need more layers than the driver has.
 class ShadowMaps {
 public:
     ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params);
@@ -27,6 +29,7 @@ public:
     void bind(const gl::Program& program) const;
 
     int layers() const { return int(layers_.size()); }
+    int size() const { return depth_.size().x; }  // of every map, texels
     const gl::Texture& depth() const { return depth_; }  // DEPTH32F array, 1 near .. 0 far
     std::vector<gl::Resource> resources() const { return {depth_.resource()}; }
 

@@ -13,7 +13,7 @@ void add_parameters(ParameterTable& table, SpecularConeParams& params)
 SpecularCones::SpecularCones(gl::Shaders& shaders)
     : program_(shaders.load({"common/fullscreen.vert", "09_specular_cones/specular.frag"}, {{"PLAIN", "0"}}))
 {
-    constexpr int kTableSize = 32, kSamples = 128;  // within 0.5 % of 65536 samples, tests/09_specular_cones_test.cpp
+    constexpr int kTableSize = 32, kSamples = 1024;  // within 0.5 %, tests/09_specular_cones_test.cpp
     const std::vector<glm::vec2> table = directional_albedo_table(kTableSize, kSamples);
     directional_albedo_ = gl::texture_2d("directional albedo", GL_RG32F, {kTableSize, kTableSize});
     glTextureSubImage2D(directional_albedo_.id(), 0, 0, 0, kTableSize, kTableSize, GL_RG, GL_FLOAT, table.data());

@@ -15,7 +15,7 @@ uniform bool net_faces;           // false: each axis for itself, the stripes
 const float kVoxelOverDiameter = 0.5;
 const float kStepOverVoxel = 0.5;  // sums of the interpolation's tents are then within 4 % of their integral,
 const float kClosed = 0.96;        // so this coverage is counted as the whole;
-const float kClosedColumn = 0.94;  // likewise two voxels of a wall at 45 degrees, whose column may touch a third
+const float kClosedColumn = 0.9;   // likewise two voxels of a wall at 45 degrees, whose column may touch a third
 const float kEmpty = 0.02;         // coverage of a sample below which a surface has ended
 const float kMaxSine = 0.95;       // a light may come closer than its radius
 const float kGoldenAngle = 2.39996323;  // rad
@@ -75,33 +75,52 @@ Stopped stopped_at(vec3 position, vec3 direction, int level)
 }
 // end snippet
 
+// What a cone has met: within a run of covered samples, one surface or one convex thing, coverages add up to the share of
+// the cone that it hides. What follows behind a gap is independent of it and hides its share of the rest.
+struct Shadow {
+    float visible;  // share of the cone that is open
+    float sum;      // coverage of the run
+    float wall;     // largest share covered at one place of the run
+};
+
+// snippet: shadow_run
+void meet(inout Shadow shadow, float stopped, float wall, float stride)
+{
+    float before = 1.0 - min(max(shadow.sum, shadow.wall), 1.0);
+    shadow.sum += stopped / kClosed * stride;
+    shadow.wall = max(shadow.wall, wall / kClosedColumn);
+    shadow.visible *= before > 0.0 ? (1.0 - min(max(shadow.sum, shadow.wall), 1.0)) / before : 0.0;
+    float covered = clamp(stopped / kEmpty, 0.0, 1.0);
+    shadow.sum *= covered;
+    shadow.wall *= covered;
+}
+// end snippet
+
 // snippet: shadow_march
-// Within a run of covered samples, one surface or one convex thing, coverages add up to the share of the cone that it
-// hides. What follows behind a gap is independent of it and hides its share of the rest. `from` < 0 starts behind the
-// origin, for what stands next to the surface: there thin sheets are left out, which may be the surface's own.
+// `from` < 0 starts behind the origin, for what stands next to the surface: there thin sheets are left out, which may be
+// the surface's own. While the cone is thinner than two voxels the finest level is all it needs; then two are mixed so
+// that the variance of the filter grows with the cone.
 float march_to_light(vec3 origin, vec3 direction, float tan_half, float from, float end)
 {
-    float visible = 1.0, sum = 0.0, wall = 0.0;
-    for (float t = from; t < end && visible > 0.001;) {
-        float width = max(2.0 * t * tan_half * kVoxelOverDiameter, 1.0), lod = min(log2(width), float(grid.size.w - 1));
+    Shadow shadow = Shadow(1.0, 0.0, 0.0);
+    float t = from, fine_end = min(end, 1.0 / (2.0 * tan_half * kVoxelOverDiameter));
+    for (float stride = step_factor * kStepOverVoxel; t < fine_end && shadow.visible > 0.001; t += stride) {
+        float middle = t + 0.5 * stride;
+        Stopped here = stopped_at(origin + direction * middle, direction, 0);
+        meet(shadow, here.net + (middle > 0.0 ? here.paired : 0.0), here.wall, stride);
+    }
+    while (t < end && shadow.visible > 0.001) {
+        float lod = clamp(log2(2.0 * t * tan_half * kVoxelOverDiameter), 0.0, float(grid.size.w - 1));
         int fine = int(lod), coarse = min(fine + 1, grid.size.w - 1);
-        float blend = (exp2(2.0 * (lod - float(fine))) - 1.0) / 3.0;  // keeps the variance between levels
-        float stride = min(step_factor * kStepOverVoxel * float(1 << fine), end - t + 1e-3), middle = t + 0.5 * stride;
-        vec3 position = origin + direction * middle;
+        float blend = (exp2(2.0 * (lod - float(fine))) - 1.0) / 3.0;
+        float stride = step_factor * kStepOverVoxel * float(1 << fine);
+        vec3 position = origin + direction * (t + 0.5 * stride);
         Stopped a = stopped_at(position, direction, fine), b = stopped_at(position, direction, coarse);
-        float sheets = middle > 0.0 ? 1.0 : 0.0;
-        float stopped = mix((a.net + sheets * a.paired) / float(1 << fine),
-                            (b.net + sheets * b.paired) / float(1 << coarse), blend) / kClosed;
-        float before = 1.0 - min(max(sum, wall), 1.0);
-        sum += stopped * stride;
-        wall = max(wall, mix(a.wall, b.wall, blend) / kClosedColumn);
-        visible *= before > 0.0 ? (1.0 - min(max(sum, wall), 1.0)) / before : 0.0;
-        float covered = clamp(stopped / kEmpty, 0.0, 1.0);
-        sum *= covered;
-        wall *= covered;
+        meet(shadow, mix((a.net + a.paired) / float(1 << fine), (b.net + b.paired) / float(1 << coarse), blend),
+             mix(a.wall, b.wall, blend), stride);
         t += stride;
     }
-    return visible;
+    return shadow.visible;
 }
 // end snippet
 

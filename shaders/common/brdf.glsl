@@ -14,7 +14,9 @@ float ggx_distribution(vec3 n, vec3 h, float alpha)
     float d = alpha * alpha * cos_h * cos_h + dot(sin_h, sin_h);
     return alpha * alpha / (kPi * d * d);
 }
+// end snippet
 
+// snippet: smith_fresnel
 // Height-correlated Smith masking and shadowing over 4 n.l n.v (Heitz 2014, eq. 99).
 float smith_visibility(float n_dot_v, float n_dot_l, float alpha)
 {

@@ -14,9 +14,7 @@ struct Cone {
     vec3 origin;      // grid space
     vec3 direction;   // unit
     float tan_half;   // tangent of half the aperture
-    float begin;      // voxels along the axis, 0 or less: a wall beside the origin is blurred over a voxel to either
-                      // side, and only a cone that has crossed all of it is stopped
-    vec3 beside;      // 1 for the axes that such a wall may have, 0 for the axis of the cone's own surface
+    vec3 sheet_axis;  // the axis of the surface that it starts from, times how much of a thin sheet this is; 0 otherwise
 };
 
 struct ConeLight {
@@ -50,9 +48,11 @@ vec4 sample_level(vec3 position, vec3 direction, int level, vec3 axes)
     vec3 low = floor(grid.content_min.xyz / voxel) + 0.5, high = floor(grid.content_max.xyz / voxel) + 0.5;
     vec3 p = clamp(position / voxel, low, high);
     // Across its own axis a wall on the bounds is met where it is, and not in the middle of the coarse voxel that holds
-    // it: the bounds are moved to the middles of the outermost voxels.
+    // it: the bounds are moved to the middles of the outermost voxels, smoothly, so that near them lengths stay.
     vec3 extent = max(grid.content_max.xyz - grid.content_min.xyz, vec3(1e-3));
-    vec3 across = mix(low, high, clamp((position - grid.content_min.xyz) / extent, 0.0, 1.0));
+    vec3 share = smoothstep(vec3(0.0), vec3(1.0), (position - grid.content_min.xyz) / extent);
+    vec3 across = position / voxel + mix(low - grid.content_min.xyz / voxel, high - grid.content_max.xyz / voxel, share);
+    across = clamp(across, low, high);
     // Outside along one axis, only walls across that axis can still be in the way. In the corners two walls share a
     // voxel, so a little way out both count.
     vec3 margin = vec3(kCornerMargin * voxel);
@@ -66,6 +66,8 @@ vec4 sample_level(vec3 position, vec3 direction, int level, vec3 axes)
            weight.y * fetch(face.y, vec3(p.x, across.y, p.z), size, level) +
            weight.z * fetch(face.z, vec3(p.xy, across.z), size, level);
 }
+
+const float kBlur = 1.5;  // voxels of a level to either side that a surface may be blurred over
 
 // Distance along the ray to where it leaves the scene's bounds, moved out by `margin`; all in voxels.
 float exit_distance(vec3 origin, vec3 direction, float margin)
@@ -105,6 +107,7 @@ void close_at_bounds(Cone cone, inout ConeLight light)
     vec4 wall = sample_level(position, mix(vec3(-1.0), vec3(1.0), greaterThan(cone.direction, vec3(0.0))), level, axis);
     float stopped = light.transmittance * smoothstep(kClosed, 1.0, wall.a);
     light.radiance += wall.rgb * (stopped / max(wall.a, 1e-6));
+    light.ambient += stopped / (1.0 + ao_falloff * exit * grid.origin.w);
     light.transmittance -= stopped;
 }
 
@@ -116,19 +119,20 @@ const float kNearlyStopped = 0.1;
 ConeLight trace_cone(Cone cone, float end)
 {
     ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0);
-    for (float t = cone.begin; t < end && light.transmittance > 0.0;) {
+    float rise = dot(cone.sheet_axis, abs(cone.direction));
+    for (float t = 0.0; t < end && light.transmittance > 0.0;) {
         float stride = min(max(2.0 * t * cone.tan_half, 1.0) * step_factor, end - t + 1e-3), middle = t + 0.5 * stride;
         float lod = log2(max(2.0 * middle * cone.tan_half, 1.0));
         int level = min(int(lod), grid.size.w - 1), next = min(level + 1, grid.size.w - 1);
         float blend = lod - float(level);
         vec3 position = cone.origin + cone.direction * middle;
-        vec3 axes = middle < 0.0 ? cone.beside : vec3(1.0);
+        vec3 axes = 1.0 - cone.sheet_axis * step(middle * rise, kBlur * float(1 << next));
         vec4 met = (1.0 - blend) * stride / float(1 << level) * sample_level(position, cone.direction, level, axes) +
                    blend * stride / float(1 << next) * sample_level(position, cone.direction, next, axes);
         float stopped = stopped_share(met.a, light.transmittance);
         if (light.transmittance - stopped < kNearlyStopped) stopped = light.transmittance;
         light.radiance += met.rgb * (stopped / max(met.a, 1e-6));
-        light.ambient += stopped / (1.0 + ao_falloff * max(middle, 0.0) * grid.origin.w);
+        light.ambient += stopped / (1.0 + ao_falloff * middle * grid.origin.w);
         light.transmittance -= stopped;
         t += stride;
     }
@@ -138,8 +142,8 @@ ConeLight trace_cone(Cone cone, float end)
 }
 
 // A cone above a surface. It starts `offset` voxels beyond the middle of the surface's own voxel along the axis that the
-// normal is nearest to; from one voxel on, a sheet's other side does not reach it. Then a little behind that origin, as
-// far as it leans along the surface.
+// normal is nearest to. A thin sheet has a face on its other side in the same voxel; the cone leaves it out until it has
+// risen above its blur.
 Cone cone_above(vec3 position_grid, vec3 geometric_normal, float offset, vec3 direction, float tan_half)
 {
     vec3 n = abs(geometric_normal);
@@ -149,8 +153,9 @@ Cone cone_above(vec3 position_grid, vec3 geometric_normal, float offset, vec3 di
     vec3 voxel_middle = floor(position_grid + 0.01 * sign(along) * axis) + 0.5;
     float from_middle = dot(axis, voxel_middle - position_grid);
     vec3 origin = position_grid + geometric_normal * (from_middle / along + offset / abs(along));
-    float lean = length(direction - dot(direction, geometric_normal) * geometric_normal);
-    return Cone(origin, direction, tan_half, -lean, 1.0 - axis);
+    int back = int(dot(axis, vec3(0.0, 2.0, 4.0))) + (along > 0.0 ? 0 : 1);
+    float sheet = fetch(back, voxel_middle, vec3(level_size(0)), 0).a;
+    return Cone(origin, direction, tan_half, sheet * axis);
 }
 
 // Cones end where they have left the bounds by their own width: a wall there has then been passed wholly.

@@ -10,6 +10,8 @@ layout(binding = 11) uniform sampler2D g_base_color_metallic;
 layout(binding = 12) uniform sampler2D g_f0_f90;
 layout(binding = 13) uniform sampler2D g_emission_roughness;
 
+uniform int g_depth_bits;  // 0: as stored; otherwise as if depth were fixed point with so many bits (chapter 02)
+
 struct GBufferSample {
     bool covered;           // false: nothing was drawn, the rest is zero
     vec3 position;          // scene space, m
@@ -46,6 +48,7 @@ GBufferSample read_g_buffer(ivec2 pixel)
     GBufferSample s;
     float depth = texelFetch(g_depth, pixel, 0).r;
     s.covered = depth > 0.0;
+    if (g_depth_bits > 0) depth = (floor(depth * exp2(float(g_depth_bits))) + 0.5) * exp2(-float(g_depth_bits));
     if (!s.covered)
         return GBufferSample(false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0,
                              vec3(0.0), 0.0);

@@ -16,6 +16,7 @@ int cube_face(vec3 d)
     return 2 * axis + (d[axis] < 0.0 ? 1 : 0);
 }
 
+// snippet: plane_gradient
 // Depth of the receiver's own plane at texels around the projected point. A projection maps planes to planes, so in
 // (u, v, depth) the plane through the point is  depth = depth_0 + g . (uv - uv_0):  no slope is too steep for it.
 vec2 plane_gradient(mat4 clip_from_scene, vec3 position, vec3 normal)
@@ -30,6 +31,7 @@ vec2 plane_gradient(mat4 clip_from_scene, vec3 position, vec3 normal)
     vec2 gradient = vec2(dt.z * db.y - db.z * dt.y, db.z * dt.x - dt.z * db.x) / determinant;
     return abs(determinant) > 1e-20 ? 2.0 * gradient : vec2(0.0);  // ndc spans 2, uv spans 1
 }
+// end snippet
 
 // Width of a texel at the point, m. A row of the matrix is as long as ndc units per metre where clip.w is 1.
 float texel_width_m(mat4 clip_from_scene, float clip_w, float size)
