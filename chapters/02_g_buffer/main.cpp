@@ -46,10 +46,10 @@ try {
     DirectLightingPass direct_lighting(app.shaders(), Shadows::none);
     GBufferViewPass g_buffer_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
-    for (const gl::Program& program : {direct_lighting.program(), g_buffer_view.program()})
-        program.set("g_depth_bits", params.depth_bits);
 
     while (app.next_frame()) {
+        for (const gl::Program& program : {direct_lighting.program(), g_buffer_view.program()})
+            program.set("g_depth_bits", params.depth_bits);
         const gl::Texture* linear = nullptr;
         const gl::Texture* picture = nullptr;
 

@@ -20,7 +20,9 @@ const gl::Texture& LayerViewPass::run(const ShadowMaps& maps, const LayerViewPar
 {
     gl::fit_to_pixels(color_, framebuffer_, "shadow map view", GL_RGBA16F, size);
     maps.depth().bind(GLuint(shared::kShadowMapUnit));
-    program_.set("layer", std::clamp(params.layer, 0, std::max(maps.layers() - 1, 0)));
+    const int layer = std::clamp(params.layer, 0, std::max(maps.layers() - 1, 0));
+    program_.set("layer", layer);
+    program_.set("scene_from_clip", maps.layers() > 0 ? glm::inverse(maps.clip_from_scene(layer)) : glm::mat4(1.0f));
     program_.set("picture_size", glm::vec2(size));
     gl::draw_pixels(program_, framebuffer_, no_vertices_, size);
     return color_;

@@ -13,7 +13,7 @@ void add_parameters(ParameterTable& table, LayerViewParams& params);
 class LayerViewPass {
 public:
     explicit LayerViewPass(gl::Shaders& shaders);
-    // RGBA16F: depth as grey, 1 near .. 0 far.
+    // RGBA16F: distance as grey, 1 at the map's near plane .. 0 at its far one and where nothing is.
     const gl::Texture& run(const ShadowMaps& maps, const LayerViewParams& params, glm::ivec2 size);
 
 private:

@@ -27,7 +27,7 @@ try {
             {"03_shadow_map",
              joined({{"final", Encoding::radiance, "direct light with shadows, and emission"},
                      {"direct", Encoding::radiance, "direct light with shadows"},
-                     {"shadow_map", Encoding::data, "what a light saw: depth of one map (layer=)"}},
+                     {"shadow_map", Encoding::data, "what a light saw: distance in one map, 1 near .. 0 far (layer=)"}},
                     surface_views()),
              parameters});
 

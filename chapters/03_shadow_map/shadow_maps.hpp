@@ -30,6 +30,7 @@ public:
 
     int layers() const { return int(layers_.size()); }
     int size() const { return depth_.size().x; }  // of every map, texels
+    const glm::mat4& clip_from_scene(int layer) const { return layers_[std::size_t(layer)].clip_from_scene; }
     const gl::Texture& depth() const { return depth_; }  // DEPTH32F array, 1 near .. 0 far
     std::vector<gl::Resource> resources() const { return {depth_.resource()}; }
 

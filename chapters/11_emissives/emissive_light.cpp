@@ -19,6 +19,7 @@ const gl::Buffer& EmissiveLight::run(const VoxelFaces& faces)
     return emission_;
 }
 
+// snippet: power
 glm::dvec3 emitted_power_w(const VoxelFaces& faces, const VoxelGrid& grid)
 {
     const double face_area_m2 = double(grid.voxel_size_m()) * double(grid.voxel_size_m());
@@ -28,5 +29,6 @@ glm::dvec3 emitted_power_w(const VoxelFaces& faces, const VoxelGrid& grid)
         power += std::numbers::pi * glm::dvec3(all[i].emission) * double(all[i].albedo_area.a) * face_area_m2;
     return power;
 }
+// end snippet
 
 }  // namespace conebook

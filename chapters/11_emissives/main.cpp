@@ -20,6 +20,7 @@ try {
     SpecularConeParams specular_params;
     CompositeParams composite_params;
     DisplayParams display_params;
+    cone_params.cones = 3;  // 16: emitters are small and bright, a cone meets them or not
     ParameterTable parameters;
     add_parameters(parameters, voxel_params);
     add_parameters(parameters, shadow_params);
@@ -59,11 +60,13 @@ try {
         // Triangles -> voxels -> radiance -> six pyramids.
         voxels.run(app, scene, shadow_maps);
 
+        // snippet: emitters_alone
         // On request keep of the faces' light only what they emit, and make the pyramids from that.
         if (app.shows("from_emitters"))
             app.pass("emitters alone", [&] {
                 voxels.pyramid().run(voxels.grid(), voxels.faces(), emissive_light.run(voxels.faces()));
             });
+        // end snippet
 
         // What the camera sees, and what of it the lamps reach.
         const gl::Texture* direct = nullptr;

@@ -30,9 +30,11 @@ void main()
     vec3 albedo = surface.f0 * table.x + surface.f90 * table.y;
     bool reflects = max(albedo.r, max(albedo.g, albedo.b)) > 1e-4;
 
-    float tan_half = tan(lobe_half_angle(surface.roughness * surface.roughness, lobe_share));
-    Cone cone = cone_above(grid_from_scene(surface.position), surface.geometric_normal, start_offset,
-                           reflect(-view, normal), tan_half);
+    // The surface cuts the lobe at its horizon, so a grazing cone is no wider than the angle to it.
+    vec3 mirrored = reflect(-view, normal);
+    float half_angle = min(lobe_half_angle(surface.roughness * surface.roughness, lobe_share), asin(n_dot_v));
+    Cone cone = cone_above(grid_from_scene(surface.position), surface.geometric_normal, start_offset, mirrored,
+                           tan(half_angle));
     ConeLight light = trace_cone(cone, reflects ? cone_end(cone) : 0.0);
     if (reflects) specular = vec4(albedo * (light.radiance + light.transmittance * sky_radiance), 1.0);
 }

@@ -8,6 +8,8 @@ layout(std430, binding = 11) writeonly buffer EmissionBuffer { vec4 face_emissio
 
 void main()
 {
+    // snippet: emission
     uint place = gl_GlobalInvocationID.x;
     if (place < voxel_statistics.faces) face_emission[place] = vec4(faces[place].emission.rgb, 1.0);
+    // end snippet
 }
