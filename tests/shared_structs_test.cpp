@@ -22,7 +22,6 @@ constexpr const char* kProbe = R"(#version 450 core
 #include "common/shadow_structs.glsl"
 #include "common/voxel_structs.glsl"
 layout(local_size_x = 1) in;
-layout(std430, binding = 0) readonly buffer Materials { MaterialData materials[]; };
 layout(std430, binding = 1) readonly buffer Lights { LightData lights[]; };
 layout(std430, binding = 2) readonly buffer ShadowLayers { ShadowLayer shadow_layers[]; };
 layout(std430, binding = 3) readonly buffer ShadowLights { ShadowLight shadow_lights[]; };
@@ -30,9 +29,10 @@ layout(std430, binding = 4) readonly buffer Faces { VoxelFace faces[]; };
 layout(std430, binding = 5) buffer Counters { VoxelStatistics counters[]; };
 layout(std140, binding = 0) uniform Camera { CameraData camera; };
 layout(std140, binding = 1) uniform Grid { GridData grid; };
+layout(std140, binding = 3) uniform Material { MaterialData material; };
 void main()
 {
-    counters[0].fragments = uint(materials[1].flags) + uint(lights[1].spot.x) + uint(shadow_layers[1].clip_from_scene[0].x) +
+    counters[0].fragments = uint(material.flags) + uint(lights[1].spot.x) + uint(shadow_layers[1].clip_from_scene[0].x) +
                             uint(shadow_lights[1].layers.x) + uint(faces[1].normal.x) + uint(camera.size.x) +
                             uint(grid.size.x);
 }
@@ -92,18 +92,17 @@ private:
 TEST_F(SharedStructs, MaterialData)
 {
     using T = shared::MaterialData;
-    expect_member("materials[0].base_color", offsetof(T, base_color));
-    expect_member("materials[0].emission", offsetof(T, emission));
-    expect_member("materials[0].specular", offsetof(T, specular));
-    expect_member("materials[0].metallic", offsetof(T, metallic));
-    expect_member("materials[0].roughness", offsetof(T, roughness));
-    expect_member("materials[0].normal_scale", offsetof(T, normal_scale));
-    expect_member("materials[0].flags", offsetof(T, flags));
-    expect_member("materials[0].uv_row[0]", offsetof(T, uv_row));
-    expect_stride("materials[0].flags", sizeof(T));
-    EXPECT_EQ(property(GL_BUFFER_VARIABLE, "materials[0].uv_row[0]", GL_ARRAY_STRIDE), GLint(sizeof(glm::vec4)));
-    EXPECT_EQ(property(GL_BUFFER_VARIABLE, "materials[0].uv_row[0]", GL_ARRAY_SIZE),
-              GLint(sizeof(T::uv_row) / sizeof(glm::vec4)));
+    expect_uniform("material.base_color", offsetof(T, base_color));
+    expect_uniform("material.emission", offsetof(T, emission));
+    expect_uniform("material.specular", offsetof(T, specular));
+    expect_uniform("material.metallic", offsetof(T, metallic));
+    expect_uniform("material.roughness", offsetof(T, roughness));
+    expect_uniform("material.normal_scale", offsetof(T, normal_scale));
+    expect_uniform("material.flags", offsetof(T, flags));
+    expect_uniform("material.uv_row[0]", offsetof(T, uv_row));
+    expect_block("Material", sizeof(T));
+    EXPECT_EQ(property(GL_UNIFORM, "material.uv_row[0]", GL_ARRAY_STRIDE), GLint(sizeof(glm::vec4)));
+    EXPECT_EQ(property(GL_UNIFORM, "material.uv_row[0]", GL_ARRAY_SIZE), GLint(sizeof(T::uv_row) / sizeof(glm::vec4)));
 }
 
 TEST_F(SharedStructs, LightData)

@@ -68,7 +68,8 @@ int fitting_size(int wanted, std::size_t layers)
 void add_parameters(ParameterTable& table, ShadowMapParams& params)
 {
     table.add("shadow_map_size", params.shadow_map_size, 64, 8192, "texels", "along a side of every shadow map");
-    table.add("shadow_bias", params.shadow_bias, 0.0, 10.0, "texels", "how far points move along their normal before the lookup");
+    table.add("shadow_bias", params.shadow_bias, 0.0, 10.0, "texels",
+              "how far points move along their normal before the lookup");
     table.add("shadow_receiver_plane", params.shadow_receiver_plane, "compare texels with the receiver's plane");
 }
 

@@ -50,7 +50,6 @@ struct Stopped {
     float wall;    // share of the cone's width that a single surface covers at this place, 0..1
 };
 
-// snippet: stopped
 // Faces that look against the ray stop it; what looks along it is left behind. A slanted surface has faces of both
 // kinds, and only the difference is what it shows to the ray: n.d = sum n_a d_a. Where the two sides of a thin sheet
 // share a voxel the difference is zero, so the smaller of both on each axis counts for itself.
@@ -61,6 +60,7 @@ Stopped stopped_at(vec3 position, vec3 direction, int level)
     vec3 low = floor(grid.content_min.xyz / voxel) + 0.5, high = floor(grid.content_max.xyz / voxel) + 0.5;
     vec3 q = clamp(p, low, high), along = vec3(greaterThanEqual(direction, vec3(0.0)));
     vec3 against = coverage_of(q, size, 1.0 - along, level), with_ray = coverage_of(q, size, along, level);
+    // snippet: stopped
     // Beside the bounds the border is repeated; along a face's own axis what is outside is empty.
     vec3 inside = step(grid.content_min.xyz, position) * step(position, grid.content_max.xyz);
     vec3 weight = abs(direction) * max(1.0 - abs(p - q), 0.0) * inside.yzx * inside.zxy;
@@ -72,8 +72,8 @@ Stopped stopped_at(vec3 position, vec3 direction, int level)
     vec3 wall = column * peak * clamp(8.0 * net / max(met, 1e-4) - 0.4, 0.0, 1.0);
     return Stopped(max(net_faces ? net : met, 0.0), net_faces ? dot(weight, min(against, with_ray)) : 0.0,
                    max(wall.x, max(wall.y, wall.z)));
+    // end snippet
 }
-// end snippet
 
 // What a cone has met: within a run of covered samples, one surface or one convex thing, coverages add up to the share of
 // the cone that it hides. What follows behind a gap is independent of it and hides its share of the rest.
@@ -96,7 +96,6 @@ void meet(inout Shadow shadow, float stopped, float wall, float stride)
 }
 // end snippet
 
-// snippet: shadow_march
 // `from` < 0 starts behind the origin, for what stands next to the surface: there thin sheets are left out, which may be
 // the surface's own. While the cone is thinner than two voxels the finest level is all it needs; then two are mixed so
 // that the variance of the filter grows with the cone.
@@ -109,6 +108,7 @@ float march_to_light(vec3 origin, vec3 direction, float tan_half, float from, fl
         Stopped here = stopped_at(origin + direction * middle, direction, 0);
         meet(shadow, here.net + (middle > 0.0 ? here.paired : 0.0), here.wall, stride);
     }
+    // snippet: shadow_march
     while (t < end && shadow.visible > 0.001) {
         float lod = clamp(log2(2.0 * t * tan_half * kVoxelOverDiameter), 0.0, float(grid.size.w - 1));
         int fine = int(lod), coarse = min(fine + 1, grid.size.w - 1);
@@ -120,9 +120,9 @@ float march_to_light(vec3 origin, vec3 direction, float tan_half, float from, fl
              mix(a.wall, b.wall, blend), stride);
         t += stride;
     }
+    // end snippet
     return shadow.visible;
 }
-// end snippet
 
 // Distance along the ray to where it leaves the scene's bounds, moved out by `margin`; all in voxels.
 float distance_to_bounds(vec3 origin, vec3 direction, float margin)
@@ -133,7 +133,6 @@ float distance_to_bounds(vec3 origin, vec3 direction, float margin)
     return max(min(t.x, min(t.y, t.z)), 0.0);
 }
 
-// snippet: shadow_cone
 // Cones that together just hold the light, a sphere or the disc of a sun: sin a = radius / distance. They lie on a spiral
 // of equal areas (Vogel 1979) and end where the light begins, or behind the bounds, where a wall on them has been passed.
 float cone_visibility(vec3 position, vec3 normal, LightSample light)
@@ -144,6 +143,7 @@ float cone_visibility(vec3 position, vec3 normal, LightSample light)
     vec3 origin = grid_from_scene(position) + start_offset * normal;
     mat3 frame = frame_around(light.direction);
     float visible = 0.0;
+    // snippet: shadow_cone
     for (int i = 0; i < shadow_cones; ++i) {
         float r = shadow_cones == 1 ? 0.0 : tan_light * sqrt((float(i) + 0.5) / float(shadow_cones));
         vec3 direction = normalize(frame * vec3(r * cos(float(i) * kGoldenAngle), r * sin(float(i) * kGoldenAngle), 1.0));
@@ -154,6 +154,6 @@ float cone_visibility(vec3 position, vec3 normal, LightSample light)
         float lead = kLead * length(direction - dot(direction, normal) * normal);
         visible += march_to_light(origin, direction, tan_half, -lead, end);
     }
+    // end snippet
     return visible / float(shadow_cones);
 }
-// end snippet
