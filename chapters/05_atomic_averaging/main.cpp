@@ -6,10 +6,8 @@
 //     mean albedo = sum_i A_i rho_i / sum_i A_i      (the same for emission, normal and position)
 //
 // Page: docs/05_atomic_averaging.md
-#include <cmath>
-
 #include "01_first_light/tone_map.hpp"
-#include "05_atomic_averaging/voxel_faces.hpp"
+#include "05_atomic_averaging/naive_average.hpp"
 #include "app/app.hpp"
 
 using namespace conebook;
@@ -26,25 +24,6 @@ FaceQuantity quantity_of(const std::string& view, const VoxelFaces& faces)
     return {&faces.faces(), stride, 0, 0, nullptr};
 }
 
-// Root mean square difference between an 8-bit mean and the exact one, over voxels with a single face.
-double rms_error(const NaiveAverage& naive, const VoxelFaces& faces)
-{
-    const std::vector<GLuint> texels = gl::read_uints(naive.color()), entries = gl::read_uints(faces.face_index());
-    const auto exact = faces.faces().read<shared::VoxelFace>();
-    double sum = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        const GLuint mask = entries[i] & 63u;
-        if (mask == 0u || (mask & (mask - 1u)) != 0u) continue;
-        for (int c = 0; c < 3; ++c) {
-            const double got = double(texels[i] >> (8 * c) & 255u) / 255.0;
-            const double difference = got - double(exact[entries[i] >> 6].albedo_area[c]);
-            sum += difference * difference;
-            count += 1.0;
-        }
-    }
-    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
-}
-
 }  // namespace
 
 int main(int argc, char** argv)
@@ -53,12 +32,14 @@ try {
     VoxelizerParams voxelizer_params;
     DisplayParams display_params;
     int averaging = int(Averaging::sums);
+    bool count_changes = false;
     ParameterTable parameters;
     add_parameters(parameters, grid_params);
     add_parameters(parameters, voxelizer_params);
     add_parameters(parameters, display_params);
     parameters.add("averaging", averaging, {"sums", "compare_and_swap", "racing_store"},
                    "how final and base_color are averaged; all later chapters use the sums");
+    parameters.add("count_changes", count_changes, "with --frames: count what differs from the first frame (slow)");
 
     App app(argc, argv,
             {"05_atomic_averaging",
@@ -67,7 +48,8 @@ try {
               {"base_color", Encoding::color, "the same"},
               {"normal", Encoding::data, "mean normal, 0.5 n + 0.5"},
               {"emission", Encoding::radiance, "mean emitted radiance"},
-              {"area", Encoding::data, "area inside the voxel, in voxel sides squared"}},
+              {"area", Encoding::data, "area inside the voxel, in voxel sides squared"},
+              {"error", Encoding::data, "with averaging=: four times the difference from the sums"}},
              parameters});
 
     const GpuScene scene(app.scene());
@@ -78,6 +60,7 @@ try {
     if (averaging != int(Averaging::sums)) naive.emplace_back(app.shaders(), scene, grid, Averaging(averaging));
     FaceViewPass face_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
+    ChangeCounter changes;
 
     while (app.next_frame()) {
         // Triangles -> occupied voxels.
@@ -87,11 +70,15 @@ try {
         app.pass("average", [&] { faces.run(scene, grid, voxelizer); });
         for (NaiveAverage& average : naive) app.pass("naive average", [&] { average.run(scene, grid, voxelizer); });
 
+        if (count_changes) changes.look(faces, naive.empty() ? nullptr : &naive.front());
+
         // Faces -> picture.
         const gl::Buffer camera("camera", std::vector{app.camera()});
         FaceQuantity quantity = quantity_of(app.view().name, faces);
         const bool shows_albedo = app.shows("final") || app.shows("voxels") || app.shows("base_color");
         if (!naive.empty() && shows_albedo) quantity = {nullptr, 1, 0, 3, &naive.front().color()};
+        if (app.shows("error")) quantity.show = 4;
+        if (app.shows("error") && !naive.empty()) quantity.packed = &naive.front().color();
         const gl::Texture* linear = nullptr;
         app.pass("voxel view", [&] {
             linear = &face_view.run(grid, voxelizer.occupancy(), faces, quantity, camera, app.size());
@@ -105,6 +92,7 @@ try {
                                  {"fragments", double(counted.fragments), ""},
                                  {"triangles without area", double(counted.degenerate), ""}};
     if (!naive.empty()) counts.push_back({"RMS error of the naive mean", rms_error(naive.front(), faces), ""});
+    if (count_changes) counts.push_back({"values that changed between frames", changes.most_changed(), ""});
     app.statistics().set_counts(counts);
     for (const auto& part : {scene.resources(), voxelizer.resources(), faces.resources()})
         app.statistics().add_resources(part);

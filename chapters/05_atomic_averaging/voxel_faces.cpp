@@ -30,13 +30,12 @@ bool has_textures(const GpuScene& scene)
     return false;
 }
 
-// Defines of the programs that chapter 05 runs over the columns.
-gl::Defines column_defines(bool textures)
-{
-    return {{"CONSERVATIVE", "1"}, {"ATTRIBUTES", "1"}, {"TEXTURES", textures ? "1" : "0"}};
-}
-
 }  // namespace
+
+gl::Defines column_defines(const GpuScene& scene)
+{
+    return {{"CONSERVATIVE", "1"}, {"ATTRIBUTES", "1"}, {"TEXTURES", has_textures(scene) ? "1" : "0"}};
+}
 
 VoxelFaces::VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
     : shaders_(&shaders),
@@ -56,7 +55,7 @@ const gl::Program& VoxelFaces::accumulate_program(const GpuScene& scene, Voxeliz
 {
     gl::Program& program = accumulate_[{has_textures(scene), scene.has_emission()}];
     if (program.id() != 0) return program;
-    gl::Defines defines = column_defines(has_textures(scene));
+    gl::Defines defines = column_defines(scene);
     defines["EMISSION"] = scene.has_emission() ? "1" : "0";
     program = voxelizer == Voxelizer::raster
                   ? shaders_->load({"04_conservative_voxelization/conservative.vert",
@@ -137,24 +136,6 @@ std::vector<gl::Resource> VoxelFaces::resources() const
 {
     return {face_index_.resource(), voxel_list_.resource(), face_list_.resource(), sums_.resource(),
             faces_.resource(),      block_counts_.resource()};
-}
-
-NaiveAverage::NaiveAverage(gl::Shaders& shaders, const GpuScene& scene, const VoxelGrid& grid, Averaging averaging)
-    : color_(gl::texture_3d("naive mean", GL_R32UI, grid.size()))
-{
-    gl::Defines defines = column_defines(has_textures(scene));
-    defines["RACING_STORE"] = averaging == Averaging::racing_store ? "1" : "0";
-    program_ = shaders.load({"04_conservative_voxelization/conservative.vert",
-                             "04_conservative_voxelization/conservative.geom", "05_atomic_averaging/naive_average.frag"},
-                            defines);
-}
-
-void NaiveAverage::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
-{
-    color_.clear();
-    color_.bind_image(0, 0, GL_READ_WRITE);
-    for_each_column(program_, Voxelizer::raster, scene, grid, voxelizer.column_plane());
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 FaceViewPass::FaceViewPass(gl::Shaders& shaders)

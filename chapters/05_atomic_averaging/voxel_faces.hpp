@@ -7,6 +7,9 @@
 
 namespace conebook {
 
+// Defines of programs that run over columns and need the scene's materials.
+gl::Defines column_defines(const GpuScene& scene);
+
 // Lists of what is occupied. Passes over voxels work on these instead of on the whole grid.
 class VoxelFaces {
 public:
@@ -45,26 +48,11 @@ private:
     shared::VoxelStatistics counted_{};
 };
 
-// How chapter 05 averages, for comparison; later chapters use the sums.
-enum class Averaging : int { sums = 0, compare_and_swap = 1, racing_store = 2 };
-
-// The two naive ways, into one RGBA8 texel a voxel (both faces of a sheet share it).
-class NaiveAverage {
-public:
-    NaiveAverage(gl::Shaders& shaders, const GpuScene& scene, const VoxelGrid& grid, Averaging averaging);
-    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
-    const gl::Texture& color() const { return color_; }  // r32ui holding RGBA8
-
-private:
-    gl::Program program_;
-    gl::Texture color_;
-};
-
 // Which part of a face to show.
 struct FaceQuantity {
     const gl::Buffer* buffer = nullptr;  // of vec4
     int stride = 1, offset = 0;          // in vec4
-    int show = 0;                        // 0 colour, 1 direction, 2 alpha, 3 `packed` instead
+    int show = 0;                        // 0 colour, 1 direction, 2 alpha, 3 `packed` instead, 4 their difference
     const gl::Texture* packed = nullptr;
 };
 

@@ -108,12 +108,16 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const VoxelGrid& g
     gl::draw_pixels(gather_, gathered_framebuffer_, no_vertices_, g_buffer.size());
     if (cones.sets() == 1) return gathered_;
 
-    // Pixels of one surface share what they gathered.
+    // Pixels of one surface share what they gathered: there, and back again.
     gl::fit_to_pixels(shared_, shared_framebuffer_, "shared light", GL_RGBA16F, g_buffer.size());
-    gathered_.bind(16);
     share_.set("plane_tolerance", grid.voxel_size_m());
+    gathered_.bind(16);
+    share_.set("window_begin", -2);
     gl::draw_pixels(share_, shared_framebuffer_, no_vertices_, g_buffer.size());
-    return shared_;
+    shared_.bind(16);
+    share_.set("window_begin", -1);
+    gl::draw_pixels(share_, gathered_framebuffer_, no_vertices_, g_buffer.size());
+    return gathered_;
 }
 
 std::vector<gl::Resource> DiffuseCones::resources() const

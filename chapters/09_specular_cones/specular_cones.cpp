@@ -8,6 +8,7 @@ namespace conebook {
 void add_parameters(ParameterTable& table, SpecularConeParams& params)
 {
     table.add("lobe_share", params.lobe_share, 0.1, 0.95, "", "share of the GGX lobe that the specular cone holds");
+    table.add("specular_start", params.specular_start, 0.0, 8.0, "voxels", "from the surface to the specular cone's start");
 }
 
 SpecularCones::SpecularCones(gl::Shaders& shaders)
@@ -29,7 +30,7 @@ const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const VoxelGrid& 
     pyramid.bind();
     directional_albedo_.bind(16);
     set_cone_march(program_, cone_params);
-    program_.set("start_offset", cone_params.start_offset);
+    program_.set("start_offset", params.specular_start);
     program_.set("lobe_share", params.lobe_share);
     gl::draw_pixels(program_, framebuffer_, no_vertices_, g_buffer.size());
     return specular_;

@@ -8,6 +8,9 @@ namespace conebook {
 struct SpecularConeParams {
     // Share of the GGX lobe that the cone holds, 0.1 .. 0.95: larger is blurrier, smaller misses the lobe's long tail.
     float lobe_share = 0.75f;
+    // Voxels from the middle of the surface's own voxel to the cone's start, 0 .. 8: a narrow cone that starts nearer shows
+    // the voxels of its own surface as a pattern.
+    float specular_start = 1.5f;
 };
 void add_parameters(ParameterTable& table, SpecularConeParams& params);
 

@@ -71,8 +71,8 @@ try {
     }
 
     app.statistics().set_counts(voxels.counts());
-    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(),
-                             lighting.resources()})
+    for (const auto& part :
+         {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(), lighting.resources()})
         app.statistics().add_resources(part);
     return app.finish();
 } catch (const std::exception& error) {

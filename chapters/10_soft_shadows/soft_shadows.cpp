@@ -10,7 +10,8 @@ void add_parameters(ParameterTable& table, SoftShadowParams& params)
     table.add("light_radius", params.light_radius, 0.001, 10.0, "m", "radius of point and spot lights, for cones");
     table.add("light_angle", params.light_angle, 0.05, 60.0, "deg", "full angle of directional lights, for cones");
     table.add("shadow_cones", params.shadow_cones, 1, 16, "cones", "to each light");
-    table.add("shadow_net_faces", params.shadow_net_faces, "faces along the cone cancel those against it; off: stripes");
+    table.add("shadow_net_faces", params.shadow_net_faces,
+              "faces along the cone cancel those against it; off: stripes");
 }
 
 SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders, const VoxelGrid& grid, ShadowMethod method)

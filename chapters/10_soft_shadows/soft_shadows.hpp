@@ -30,13 +30,13 @@ public:
     // RGBA16F of the g-buffer's size: radiance of direct light, or the mean visible share of the lights (0..1).
     // Of `cone_params`, step and start_offset count.
     const gl::Texture& run(const GBuffer& g_buffer, const GpuScene& scene, const LitVoxels& voxels,
-                           const ShadowMaps& shadow_maps, const ConeParams& cone_params,
-                           const SoftShadowParams& params, bool show_visibility);
+                           const ShadowMaps& shadow_maps, const ConeParams& cone_params, const SoftShadowParams& params,
+                           bool show_visibility);
     // The same for voxels that are not in one hand.
     const gl::Texture& run(const GBuffer& g_buffer, const GpuScene& scene, const VoxelGrid& grid,
                            const VoxelFaces& faces, const VoxelShading& shading, const LightPyramid& pyramid,
-                           const ShadowMaps& shadow_maps, const ConeParams& cone_params,
-                           const SoftShadowParams& params, bool show_visibility);
+                           const ShadowMaps& shadow_maps, const ConeParams& cone_params, const SoftShadowParams& params,
+                           bool show_visibility);
     std::vector<gl::Resource> resources() const;
 
 private:

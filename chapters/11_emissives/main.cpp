@@ -63,9 +63,8 @@ try {
         // snippet: emitters_alone
         // On request keep of the faces' light only what they emit, and make the pyramids from that.
         if (app.shows("from_emitters"))
-            app.pass("emitters alone", [&] {
-                voxels.pyramid().run(voxels.grid(), voxels.faces(), emissive_light.run(voxels.faces()));
-            });
+            app.pass("emitters alone",
+                     [&] { voxels.pyramid().run(voxels.grid(), voxels.faces(), emissive_light.run(voxels.faces())); });
         // end snippet
 
         // What the camera sees, and what of it the lamps reach.
@@ -79,9 +78,8 @@ try {
 
         // Light of other surfaces, shining or lit.
         const gl::Texture *gathered = nullptr, *specular = nullptr;
-        app.pass("diffuse cones", [&] {
-            gathered = &diffuse_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cones, cone_params);
-        });
+        app.pass("diffuse cones",
+                 [&] { gathered = &diffuse_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cones, cone_params); });
         app.pass("specular cones", [&] {
             specular = &specular_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cone_params, specular_params);
         });

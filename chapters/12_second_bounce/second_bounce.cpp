@@ -12,7 +12,8 @@ void add_parameters(ParameterTable& table, BounceParams& params)
 }
 
 SecondBounce::SecondBounce(gl::Shaders& shaders)
-    : program_(shaders.load({"12_second_bounce/bounce.comp"}, {{"PLAIN", "0"}})),
+    : gather_(shaders.load({"12_second_bounce/bounce.comp"}, {{"PLAIN", "0"}})),
+      send_on_(shaders.load({"12_second_bounce/send_on.comp"})),
       change_("bounce change", 2 * sizeof(GLuint))
 {
 }
@@ -22,7 +23,10 @@ void SecondBounce::run(LitVoxels& voxels, const DiffuseConeUniforms& cones, cons
 {
     const VoxelFaces& faces = voxels.faces();
     const std::size_t bytes = faces.face_count() * sizeof(glm::vec4);
-    if (bounced_.bytes() < bytes) bounced_ = gl::Buffer("bounced radiance", bytes);
+    if (bounced_.bytes() < bytes) {
+        gathered_ = gl::Buffer("gathered by faces", bytes);
+        bounced_ = gl::Buffer("bounced radiance", bytes);
+    }
     bounced_.clear();
     const bool to_convergence = params.bounces < 0;
     constexpr int kMostGatherings = 256;  // 0.99^256 = 0.08: the brightest white allowed is not quite done by then
@@ -30,16 +34,22 @@ void SecondBounce::run(LitVoxels& voxels, const DiffuseConeUniforms& cones, cons
 
     for (gatherings_ = 0; gatherings_ < wanted; ++gatherings_) {
         // Every face gathers.
-        change_.clear();
         voxels.grid().bind();
         faces.bind();
         voxels.pyramid().bind();
-        voxels.shading().radiance().bind(GL_SHADER_STORAGE_BUFFER, 11);
-        bounced_.bind(GL_SHADER_STORAGE_BUFFER, 12);
-        change_.bind(GL_SHADER_STORAGE_BUFFER, 13);
-        cones.bind(program_, cone_params);
-        program_.use();
+        cones.bind(gather_, cone_params);
+        gathered_.bind(GL_SHADER_STORAGE_BUFFER, 12);
+        gather_.use();
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
+        glDispatchComputeIndirect(0);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+
+        // Every face sends on its share of what its wall gathered.
+        change_.clear();
+        voxels.shading().radiance().bind(GL_SHADER_STORAGE_BUFFER, 11);
+        change_.bind(GL_SHADER_STORAGE_BUFFER, 13);
+        bounced_.bind(GL_SHADER_STORAGE_BUFFER, 15);
+        send_on_.use();
         glDispatchComputeIndirect(0);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 

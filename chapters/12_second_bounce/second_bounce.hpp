@@ -26,11 +26,11 @@ public:
              const BounceParams& params);
 
     int gatherings() const { return gatherings_; }  // of the last run
-    std::vector<gl::Resource> resources() const { return {bounced_.resource()}; }
+    std::vector<gl::Resource> resources() const { return {gathered_.resource(), bounced_.resource()}; }
 
 private:
-    gl::Program program_;
-    gl::Buffer bounced_, change_;
+    gl::Program gather_, send_on_;
+    gl::Buffer gathered_, bounced_, change_;
     int gatherings_ = 0;
 };
 

@@ -3,7 +3,9 @@
 // Moving the edges out by the reach of half a pixel: Hasselgren et al. 2005, GPU Gems 2, chapter 42, second algorithm.
 // ATTRIBUTES: 1 to hand on what the vertices have besides their positions (chapter 05).
 #include "common/triangle_voxels.glsl"
+#if !ATTRIBUTES
 #include "common/voxel_counters.glsl"
+#endif
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -44,7 +46,9 @@ void main()
 {
     GridTriangle t = grid_triangle(uint(gl_PrimitiveIDIn));
     if (has_no_area(t)) {
+#if !ATTRIBUTES  // else an earlier pass has counted them
         count_degenerate();
+#endif
         return;
     }
     vec2 a = t.v0.xy, b = t.v1.xy, c = t.v2.xy;

@@ -8,7 +8,7 @@ layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(binding = kPackedColorUnit) uniform usampler3D packed_color;  // RGBA8 in 32 bits, instead of the faces
 layout(std430, binding = 10) readonly buffer FaceWords { vec4 face_words[]; };
 uniform int stride, offset;   // in vec4, within face_words
-uniform int show;             // 0: colour, 1: direction as 0.5 n + 0.5, 2: alpha as grey, 3: packed_color
+uniform int show;             // 0: colour, 1: direction as 0.5 n + 0.5, 2: alpha as grey, 3: packed_color, 4: their difference
 layout(location = 0) out vec4 color;
 
 void main()
@@ -31,5 +31,6 @@ void main()
         best = towards;
         value = face_words[face_place(entry, face) * uint(stride) + uint(offset)];
     }
+    if (show == 4) value.rgb = 4.0 * abs(value.rgb - unpackUnorm4x8(texelFetch(packed_color, hit.voxel, 0).r).rgb);
     color = vec4(show == 1 ? 0.5 * value.xyz + 0.5 : show == 2 ? value.aaa : value.rgb, 1.0);
 }

@@ -1,9 +1,11 @@
 #version 450 core
 // Neighbouring pixels share their cones: the mean over a window that holds every set once, of pixels on the same surface.
+// Run twice, with windows that lean to opposite sides: together a tent of 7 x 7 pixels around the pixel.
 #include "common/g_buffer.glsl"
 
 layout(binding = 16) uniform sampler2D gathered_light;
 uniform float plane_tolerance;  // m
+uniform int window_begin;       // pixels from the pixel to the window's first column and row
 layout(location = 0) out vec4 shared_light;
 
 const int kWindow = 4;
@@ -19,7 +21,7 @@ void main()
     float weights = 0.0;
     // snippet: share
     for (int i = 0; i < kWindow * kWindow; ++i) {
-        ivec2 other = pixel + ivec2(i % kWindow, i / kWindow) - kWindow / 2;
+        ivec2 other = pixel + ivec2(i % kWindow, i / kWindow) + window_begin;
         other = clamp(other, ivec2(0), textureSize(gathered_light, 0) - 1);
         GBufferSample neighbour = read_g_buffer(other);
         float off_plane = abs(dot(neighbour.position - center.position, center.geometric_normal));

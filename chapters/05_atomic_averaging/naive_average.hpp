@@ -1,0 +1,39 @@
+// Two other ways to average, and how far they are from the right answer. Only chapter 05 uses them.
+#pragma once
+
+#include "05_atomic_averaging/voxel_faces.hpp"
+
+namespace conebook {
+
+// How chapter 05 averages, for comparison; later chapters use the sums.
+enum class Averaging : int { sums = 0, compare_and_swap = 1, racing_store = 2 };
+
+// Into one RGBA8 texel a voxel; both sides of a sheet share it. Every fragment weighs the same.
+class NaiveAverage {
+public:
+    // `averaging`: compare_and_swap or racing_store.
+    NaiveAverage(gl::Shaders& shaders, const GpuScene& scene, const VoxelGrid& grid, Averaging averaging);
+    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    const gl::Texture& color() const { return color_; }  // r32ui holding RGBA8, A the number of fragments
+
+private:
+    gl::Program program_;
+    gl::Texture color_;
+};
+
+// Root mean square difference from the faces' albedo, over all channels of the voxels with a single face (the others
+// mix faces, which is another error).
+double rms_error(const NaiveAverage& naive, const VoxelFaces& faces);
+
+// Counts what differs from the first frame: naive texels, or words of the faces when there is no naive mean.
+class ChangeCounter {
+public:
+    void look(const VoxelFaces& faces, const NaiveAverage* naive);
+    double most_changed() const { return most_changed_; }
+
+private:
+    std::vector<GLuint> first_;
+    double most_changed_ = 0.0;
+};
+
+}  // namespace conebook
