@@ -103,8 +103,8 @@ TEST(SoftShadows, PenumbraOfASlantedSun)
             const double width = (crossing(visible, 2, 0.9) - crossing(visible, 2, 0.1)) * metres_per_pixel;
             // A direction u radii off the centre: across the slope tan(30 deg + u a), along it tan(u a) / cos 30 deg.
             const double a = double(glm::radians(0.5f * angle)), tilt = std::numbers::pi / 6.0, u = disc_edge(0.9);
-            const double exact = across ? std::tan(tilt + u * a) - std::tan(tilt - u * a)
-                                        : 2.0 * std::tan(u * a) / std::cos(tilt);
+            const double exact =
+                across ? std::tan(tilt + u * a) - std::tan(tilt - u * a) : 2.0 * std::tan(u * a) / std::cos(tilt);
             EXPECT_NEAR(width, exact, 0.2 * exact) << "angle " << angle << " across " << across;
         }
 }
@@ -169,7 +169,8 @@ TEST(SoftShadows, NoLightAtTheFootOfABox)
     b.quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, grey);
     b.box({-0.6f, 0, -0.6f}, {0, 1, 0.6f}, grey);
     b.directional_light({1, -1, 0}, glm::vec3(1.0f));
-    LightPipeline pipeline(b.build(), look_at_orthographic({0.2f, 0.9f, 0}, {0.2f, 0, 0}, 0.2f, 0.2f), {128, 128}, kVoxels);
+    LightPipeline pipeline(b.build(), look_at_orthographic({0.2f, 0.9f, 0}, {0.2f, 0, 0}, 0.2f, 0.2f), {128, 128},
+                           kVoxels);
     const ImageF visible = pipeline.visibility(ShadowMethod::cone, light_of_angle(0.53f));
     double leak_m = 0.0;
     for (int x = 0; x < 128; ++x) leak_m += double(visible.at(x, 64).r) * 0.4 / 128.0;
@@ -217,8 +218,8 @@ TEST(SoftShadows, MeaninglessParametersAreRefused)
 {
     const TemporaryFolder folder;
     const std::filesystem::path picture = folder / "picture.png";
-    for (const char* wrong : {"light_radius=0", "shadow_cones=0", "light_radius=-1", "light_radius=nan", "light_angle=0", "light_angle=180",
-                              "shadows=none", "shadow_radius=1"}) {
+    for (const char* wrong : {"light_radius=0", "shadow_cones=0", "light_radius=-1", "light_radius=nan",
+                              "light_angle=0", "light_angle=180", "shadows=none", "shadow_radius=1"}) {
         const ProgramRun run = run_program("10_soft_shadows", std::string("--headless --size 16x16 --output '") +
                                                                   picture.string() + "' --set " + wrong);
         EXPECT_NE(run.code, 0) << wrong;

@@ -51,8 +51,9 @@ glm::dvec3 exact_power_w(const Scene& scene)
                         const auto texel = [&](double u, int size) {
                             return std::min(int((u - std::floor(u)) * size), size - 1);
                         };
-                        const std::size_t at = 4 * (std::size_t(texel(moved.y, image.height)) * std::size_t(image.width) +
-                                                    std::size_t(texel(moved.x, image.width)));
+                        const std::size_t at =
+                            4 * (std::size_t(texel(moved.y, image.height)) * std::size_t(image.width) +
+                                 std::size_t(texel(moved.x, image.width)));
                         for (int channel = 0; channel < 3; ++channel)
                             sum[channel] += srgb_to_linear(double(image.rgba[at + std::size_t(channel)]) / 255.0);
                     }
@@ -78,21 +79,20 @@ double irradiance_ratio(float radius, float height, int voxels)
 // E = pi L R^2 / (R^2 + h^2) on the axis of a disc.
 TEST(Emissives, DiscAboveAPlane)
 {
-    // Measured: 0.99 to 1.07. A cone's filter makes what it meets half a voxel thicker on each side, towards the floor too.
-    for (const float height : {0.1f, 0.25f, 0.5f, 0.9f})
-        EXPECT_NEAR(irradiance_ratio(0.6f, height, 128), 1.03, 0.05) << "height " << height;
-    // The cone's filter spreads a disc of a few voxels, and the cones start a voxel nearer to it: the smaller, the brighter.
-    for (const float height : {0.1f, 0.25f, 0.5f, 0.9f})
-        EXPECT_NEAR(irradiance_ratio(0.3f, height, 128), 1.05, 0.07) << "height " << height;
+    for (const float radius : {0.6f, 0.3f})
+        for (const float height : {0.1f, 0.25f, 0.5f, 0.9f})
+            EXPECT_NEAR(irradiance_ratio(radius, height, 128), 1.0, 0.05) << "radius " << radius << " height " << height;
+    // Six voxels, measured 0.99 to 1.07: the cones start nearer to it than the surface is.
     for (const float height : {0.25f, 0.5f, 0.9f})
-        EXPECT_NEAR(irradiance_ratio(0.1f, height, 128), 1.1, 0.15) << "height " << height;
+        EXPECT_NEAR(irradiance_ratio(0.1f, height, 128), 1.0, 0.1) << "height " << height;
 }
 
 TEST(Emissives, PowerOfVoxelsIsThePowerOfTriangles)
 {
     SceneBuilder b;
     Material textured = emitter(glm::vec3(3.0f, 2.0f, 0.5f));
-    textured.emission_texture.image = b.image(2, 2, {255, 0, 128, 255, 0, 255, 0, 255, 0, 0, 64, 255, 255, 255, 255, 255});
+    textured.emission_texture.image =
+        b.image(2, 2, {255, 0, 128, 255, 0, 255, 0, 255, 0, 0, 64, 255, 255, 255, 255, 255});
     textured.emission_texture.mag_filter = textured.emission_texture.min_filter = Filter::nearest;
     textured.emission_texture.mipmapped = false;
     b.box({-1, -1, -1}, {1, 1, 1}, b.material(lambert(0.5f)), true);
@@ -131,10 +131,11 @@ TEST(Emissives, LightIsProportionalToRadianceOverSevenDecades)
     for (const float radiance : {1e-3f, 1e-2f, 30.0f, 1e4f}) {
         LightPipeline pipeline(room_with_panel(radiance, 0.0f), kInRoom, {48, 48}, 64);
         const ImageF picture = pipeline.gathered({});
-        constexpr float kSmallestHalf = 6e-8f;  // the step of the pictures' 16 bit floats near 0
+        // Near 0 the 16 bit floats of pyramids and pictures have steps of 6e-8; a few of them add up.
+        constexpr float kRounding = 4.0f * 6e-8f;
         for (std::size_t i = 0; i < picture.pixels.size(); ++i)
             ASSERT_NEAR(picture.pixels[i].r, radiance * unit.pixels[i].r,
-                        0.01f * radiance * unit.pixels[i].r + kSmallestHalf * std::max(1.0f, radiance))
+                        0.01f * radiance * unit.pixels[i].r + kRounding * std::max(1.0f, radiance))
                 << radiance;
     }
 }
@@ -204,8 +205,9 @@ TEST(Emissives, EmissionViewIsWhatIsEmitted)
     const TemporaryFolder folder;
     const std::filesystem::path exr = folder / "emission.exr";
     const std::string scene = TestGl::root() + "/assets/cornell_area.glb";
-    const ProgramRun run = run_program("11_emissives", "--headless --size 64x64 --view emission --set voxels=32 --scene '" +
-                                                           scene + "' --output '" + exr.string() + "'");
+    const ProgramRun run =
+        run_program("11_emissives", "--headless --size 64x64 --view emission --set voxels=32 --scene '" + scene +
+                                        "' --output '" + exr.string() + "'");
     ASSERT_EQ(run.code, 0) << run.output;
     const ImageF picture = read_exr(exr);
     int shining = 0;
@@ -231,8 +233,10 @@ TEST(Emissives, NearThePathTracer)
     for (const Case& c : {Case{"cornell_area", 0.85, 1.15, 0.15}, Case{"emissive_shapes", 0.9, 1.45, 0.2}}) {
         const TemporaryFolder folder;
         const std::filesystem::path exr = folder / "picture.exr", file = TestGl::root() + "/assets/" + c.scene + ".glb";
-        const ProgramRun run = run_program("11_emissives", "--headless --size 96x96 --view indirect_diffuse --set voxels=128 cones=16"
-                                                           " --scene '" + file.string() + "' --output '" + exr.string() + "'");
+        const ProgramRun run = run_program("11_emissives",
+                                           "--headless --size 96x96 --view indirect_diffuse --set voxels=128 cones=16"
+                                           " --scene '" +
+                                               file.string() + "' --output '" + exr.string() + "'");
         ASSERT_EQ(run.code, 0) << run.output;
         const Scene scene = load_scene(file);
         PathTraceOptions options;

@@ -20,16 +20,19 @@ using Triangle = std::array<glm::dvec3, 3>;
 inline glm::dvec3 normal_of(const Triangle& t) { return glm::cross(t[1] - t[0], t[2] - t[0]); }
 inline double area_of(const Triangle& t) { return 0.5 * glm::length(normal_of(t)); }
 
-// The scene's triangles in grid space. Float positions, origin and voxel size are exact; what follows is double.
+// The scene's triangles in grid space. Float positions, origin and voxel size are exact; what follows is double. Those
+// without area are left out, as voxelization leaves them out.
 inline std::vector<Triangle> triangles_of(const Scene& scene, const shared::GridData& grid)
 {
     const glm::dvec3 origin = glm::dvec3(glm::vec3(grid.origin));
-    std::vector<Triangle> triangles(scene.triangle_count());
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (std::size_t c = 0; c < 3; ++c) {
-            const glm::vec3 position = scene.vertices[scene.indices[3 * i + c]].position;
-            triangles[i][c] = (glm::dvec3(position) - origin) / double(grid.origin.w);
-        }
+    std::vector<Triangle> triangles;
+    for (std::size_t i = 0; i < scene.triangle_count(); ++i) {
+        Triangle t;
+        for (std::size_t c = 0; c < 3; ++c) t[c] = glm::dvec3(scene.vertices[scene.indices[3 * i + c]].position);
+        if (area_of(t) == 0.0) continue;
+        for (glm::dvec3& p : t) p = (p - origin) / double(grid.origin.w);
+        triangles.push_back(t);
+    }
     return triangles;
 }
 

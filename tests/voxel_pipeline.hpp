@@ -1,133 +1,109 @@
-// A scene made in code and its voxels: chapters 04 and 05 without a program around them. Header only.
+// A scene made in code and its lit voxels: chapters 03 to 07 without a program around them. Header only.
+//
+//     VoxelPipeline pipeline(scene, 64);
+//     for (const LitFace& face : pipeline.faces()) ...          // mean material and radiance of every occupied face
+//     const PyramidLevel level = pipeline.level(2);             // what the pyramids hold
 #pragma once
 
-#include <map>
-#include <random>
-#include <utility>
-#include <vector>
-
-#include "05_atomic_averaging/voxel_faces.hpp"
+#include "07_anisotropic_mips/light_pyramid.hpp"
 #include "scene_builder.hpp"
 #include "test_gl.hpp"
 
 namespace conebook {
 
-// Bounds for which make_grid() gives voxels of 1 m and grid space = scene space: n voxels along x, the first side at 0.
-inline Bounds unit_bounds(int n) { return {glm::vec3(0.5f), glm::vec3(float(n) - 0.5f)}; }
+// An occupied face as chapters 05 and 06 leave it.
+struct LitFace {
+    glm::ivec3 voxel;
+    int direction;  // 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z
+    shared::VoxelFace mean;
+    glm::vec3 radiance;  // W/(sr m^2)
+    float visibility;    // 0..1
+};
 
-// A scene of triangles without sharing, one material.
-inline Scene triangle_soup(const std::vector<std::array<glm::vec3, 3>>& triangles, const Material& material = lambert(0.5f))
-{
-    Scene scene;
-    scene.materials.push_back(material);
-    for (const auto& t : triangles) {
-        const glm::vec3 n = glm::cross(t[1] - t[0], t[2] - t[0]);
-        const float length = glm::length(n);
-        for (const glm::vec3& p : t) {
-            scene.indices.push_back(std::uint32_t(scene.vertices.size()));
-            scene.vertices.push_back({p, length > 0.0f ? n / length : glm::vec3(0, 1, 0), glm::vec4(1, 0, 0, 1),
-                                      glm::vec2(0.0f), glm::vec2(0.0f), glm::vec4(1.0f)});
-        }
+// One level of the six pyramids in double precision.
+struct PyramidLevel {
+    glm::ivec3 size{0};
+    std::vector<glm::dvec4> texels;  // rgb: coverage times radiance, a: coverage
+    std::size_t index(int direction, const glm::ivec3& v) const
+    {
+        return (std::size_t(v.z) * std::size_t(size.y) + std::size_t(v.y)) * 6 * std::size_t(size.x) +
+               std::size_t(direction * size.x + v.x);
     }
-    scene.draws.push_back({0, std::uint32_t(scene.indices.size()), 0, ""});
-    scene.bounds = {scene.vertices[0].position, scene.vertices[0].position};
-    for (const Vertex& v : scene.vertices) {
-        scene.bounds.min = glm::min(scene.bounds.min, v.position);
-        scene.bounds.max = glm::max(scene.bounds.max, v.position);
-    }
-    return scene;
-}
+    const glm::dvec4& at(int direction, const glm::ivec3& v) const { return texels[index(direction, v)]; }
+    glm::dvec4& at(int direction, const glm::ivec3& v) { return texels[index(direction, v)]; }
+};
 
-inline glm::vec3 random_direction(std::mt19937& random)
+// function(direction, voxel) for every texel.
+template <typename Function>
+void for_each_voxel(const PyramidLevel& level, Function function)
 {
-    std::normal_distribution<float> gauss;
-    return glm::normalize(glm::vec3(gauss(random), gauss(random), gauss(random)) + 1e-9f);
-}
-
-// Triangles of random shape and direction, sizes spread evenly on a log scale, kept inside the bounds.
-inline std::vector<std::array<glm::vec3, 3>> random_triangles(std::mt19937& random, int count, const Bounds& bounds,
-                                                              float smallest, float largest)
-{
-    std::uniform_real_distribution<float> unit(0.0f, 1.0f);
-    std::vector<std::array<glm::vec3, 3>> triangles;
-    for (int i = 0; i < count; ++i) {
-        const glm::vec3 center = bounds.min + bounds.extent() * glm::vec3(unit(random), unit(random), unit(random));
-        const float size = smallest * std::pow(largest / smallest, unit(random));
-        std::array<glm::vec3, 3> t;
-        for (glm::vec3& p : t)
-            p = glm::clamp(center + 0.58f * size * random_direction(random), bounds.min, bounds.max);
-        triangles.push_back(t);
-    }
-    return triangles;
+    for (int direction = 0; direction < 6; ++direction)
+        for (int z = 0; z < level.size.z; ++z)
+            for (int y = 0; y < level.size.y; ++y)
+                for (int x = 0; x < level.size.x; ++x) function(direction, glm::ivec3(x, y, z));
 }
 
 class VoxelPipeline {
 public:
-    VoxelPipeline(const Scene& scene, int voxels, Voxelizer voxelizer = Voxelizer::raster)
-        : VoxelPipeline(scene, scene.bounds, voxels, voxelizer)
-    {
-    }
-    VoxelPipeline(const Scene& scene, const Bounds& bounds, int voxels, Voxelizer voxelizer = Voxelizer::raster,
-                  bool conservative = true)
+    VoxelPipeline(const Scene& scene, int voxels, const VoxelShadingParams& shading = {},
+                  const PyramidParams& pyramid = {})
         : scene_((test_gl(), scene)),  // the context comes first
-          grid_(bounds, {voxels}),
-          voxelizer_(test_gl().shaders, grid_, {int(voxelizer), conservative, false}),
-          faces_(test_gl().shaders, grid_, voxelizer_)
+          shadow_maps_(test_gl().shaders, scene_, {}),
+          grid_(scene_.bounds(), {voxels}),
+          voxelizer_(test_gl().shaders, grid_, {}),
+          faces_(test_gl().shaders, grid_, voxelizer_),
+          shading_(test_gl().shaders, shading),
+          pyramid_(test_gl().shaders, grid_, pyramid)
     {
-    }
-    void voxelize() { voxelizer_.run(scene_, grid_); }
-    void average()
-    {
-        voxelize();
+        shadow_maps_.draw(scene_);
+        voxelizer_.run(scene_, grid_);
         faces_.run(scene_, grid_, voxelizer_);
+        pyramid_.clear();
+        shading_.run(scene_, grid_, voxelizer_, faces_, shadow_maps_);
+        pyramid_.run(grid_, faces_, shading_.radiance());
     }
 
-    // Mask of faces of every voxel, x fastest.
-    std::vector<GLuint> occupancy() const { return gl::read_uints(voxelizer_.occupancy()); }
-    std::vector<shared::VoxelFace> faces() const
+    std::vector<LitFace> faces() const
     {
-        auto all = faces_.faces().read<shared::VoxelFace>();
-        all.resize(faces_.face_count());
+        const auto entries = faces_.face_list().read<GLuint>();
+        const auto means = faces_.faces().read<shared::VoxelFace>();
+        const auto radiance = shading_.radiance().read<glm::vec4>();
+        std::vector<LitFace> all;
+        for (std::size_t i = 0; i < faces_.face_count(); ++i) {
+            const GLuint e = entries[i];
+            all.push_back({{int(e & 511u), int((e >> 9) & 511u), int((e >> 18) & 511u)},
+                           int(e >> 27),
+                           means[i],
+                           glm::vec3(radiance[i]),
+                           radiance[i].a});
+        }
         return all;
-    }
-    std::vector<GLuint> face_list() const
-    {
-        auto all = faces_.face_list().read<GLuint>();
-        all.resize(faces_.face_count());
-        return all;
-    }
-    // By (voxel, face direction).
-    std::map<std::pair<std::array<int, 3>, int>, shared::VoxelFace> faces_by_voxel() const
-    {
-        std::map<std::pair<std::array<int, 3>, int>, shared::VoxelFace> map;
-        const auto list = face_list();
-        const auto values = faces();
-        for (std::size_t i = 0; i < list.size(); ++i)
-            map[{{int(list[i] & 511u), int(list[i] >> 9 & 511u), int(list[i] >> 18 & 511u)}, int(list[i] >> 27)}] =
-                values[i];
-        return map;
-    }
-    shared::VoxelStatistics statistics() const
-    {
-        return voxelizer_.statistics_buffer().read_at<shared::VoxelStatistics>(0);
-    }
-    double total_area_voxels() const
-    {
-        double sum = 0.0;
-        for (const auto& face : faces()) sum += double(face.albedo_area.a);
-        return sum;
     }
 
-    const GpuScene& scene() const { return scene_; }
-    const VoxelGrid& grid() const { return grid_; }
-    ConservativeVoxelizer& voxelizer() { return voxelizer_; }
-    VoxelFaces& voxel_faces() { return faces_; }
+    PyramidLevel level(int level) const
+    {
+        const std::vector<float> values = gl::read_floats(pyramid_.light(), level, 4);
+        PyramidLevel result{grid_.size() >> level, {}};
+        for (std::size_t i = 0; i < values.size(); i += 4)
+            result.texels.emplace_back(values[i], values[i + 1], values[i + 2], values[i + 3]);
+        return result;
+    }
+
+    const shared::GridData& grid() const { return grid_.data(); }
+    int levels() const { return grid_.levels(); }
+    glm::dvec3 scene_from_grid(const glm::dvec3& p) const
+    {
+        return p * double(grid_.voxel_size_m()) + glm::dvec3(grid_.data().origin);
+    }
 
 private:
     GpuScene scene_;
+    ShadowMaps shadow_maps_;
     VoxelGrid grid_;
     ConservativeVoxelizer voxelizer_;
     VoxelFaces faces_;
+    VoxelShading shading_;
+    LightPyramid pyramid_;
 };
 
 }  // namespace conebook

@@ -77,8 +77,10 @@ try {
         FaceQuantity quantity = quantity_of(app.view().name, faces);
         const bool shows_albedo = app.shows("final") || app.shows("voxels") || app.shows("base_color");
         if (!naive.empty() && shows_albedo) quantity = {nullptr, 1, 0, 3, &naive.front().color()};
-        if (app.shows("error")) quantity.show = 4;
-        if (app.shows("error") && !naive.empty()) quantity.packed = &naive.front().color();
+        if (app.shows("error")) {
+            quantity.show = 4;
+            quantity.packed = naive.empty() ? nullptr : &naive.front().color();
+        }
         const gl::Texture* linear = nullptr;
         app.pass("voxel view", [&] {
             linear = &face_view.run(grid, voxelizer.occupancy(), faces, quantity, camera, app.size());

@@ -156,6 +156,7 @@ const gl::Texture& FaceViewPass::run(const VoxelGrid& grid, const gl::Texture& o
     program_.set("stride", quantity.stride);
     program_.set("offset", quantity.offset);
     program_.set("show", quantity.show);
+    program_.set("has_packed", quantity.packed != nullptr);
     gl::draw_pixels(program_, framebuffer_, no_vertices_, size);
     return color_;
 }

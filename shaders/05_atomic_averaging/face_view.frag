@@ -9,6 +9,7 @@ layout(binding = kPackedColorUnit) uniform usampler3D packed_color;  // RGBA8 in
 layout(std430, binding = 10) readonly buffer FaceWords { vec4 face_words[]; };
 uniform int stride, offset;   // in vec4, within face_words
 uniform int show;             // 0: colour, 1: direction as 0.5 n + 0.5, 2: alpha as grey, 3: packed_color, 4: their difference
+uniform bool has_packed;
 layout(location = 0) out vec4 color;
 
 void main()
@@ -31,6 +32,7 @@ void main()
         best = towards;
         value = face_words[face_place(entry, face) * uint(stride) + uint(offset)];
     }
-    if (show == 4) value.rgb = 4.0 * abs(value.rgb - unpackUnorm4x8(texelFetch(packed_color, hit.voxel, 0).r).rgb);
+    vec3 other = has_packed ? unpackUnorm4x8(texelFetch(packed_color, hit.voxel, 0).r).rgb : value.rgb;
+    if (show == 4) value.rgb = 4.0 * abs(value.rgb - other);
     color = vec4(show == 1 ? 0.5 * value.xyz + 0.5 : show == 2 ? value.aaa : value.rgb, 1.0);
 }
