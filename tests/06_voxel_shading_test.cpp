@@ -281,6 +281,24 @@ INSTANTIATE_TEST_SUITE_P(Lights, KnownShadow,
                                          LitPlane{"spot", spot({0.2f, 3.0f, 0.1f}, 50.0, 60.0), 0}),
                          [](const auto& info) { return std::string(info.param.name); });
 
+// A voxel's mean point lies inside a round surface, not on it: the lookup starts half a voxel outside.
+TEST(VoxelShadowsMap, RoundSurfacesDoNotShadowThemselves)
+{
+    SceneBuilder b;
+    b.sphere({}, 1.0f, b.material(lambert(0.5f)), 48);
+    const glm::vec3 to_light = glm::normalize(glm::vec3(0.3f, 0.9f, -0.4f));
+    b.directional_light(-to_light, glm::vec3(1.0f));
+    const VoxelPipeline pipeline(b.build(), 32);
+    int lit = 0, acne = 0;
+    for (const LitFace& face : pipeline.faces()) {
+        if (glm::dot(glm::vec3(face.mean.normal), to_light) < 0.1f || face.mean.albedo_area.a < 1e-3f) continue;
+        ++lit;
+        acne += face.visibility < 0.99f ? 1 : 0;
+    }
+    EXPECT_GT(lit, 1000);
+    EXPECT_EQ(acne, 0);
+}
+
 // A soft ray that meets one voxel far away keeps a part of the light: s/t of it is lost.
 TEST(VoxelShadowsSoft, FarBlockerShadesLessThanANearOne)
 {

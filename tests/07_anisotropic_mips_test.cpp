@@ -125,7 +125,7 @@ TEST_P(Filter, EveryLevelAndDirectionIsTheDoublePrecisionOne)
     }
 }
 INSTANTIATE_TEST_SUITE_P(Pyramids, Filter, testing::Bool(),
-                         [](const auto& info) { return info.param ? "isotropic" : "anisotropic"; });
+                         [](const auto& info) { return info.param ? std::string("isotropic") : std::string("anisotropic"); });
 
 TEST(Pyramid, IsotropicBaseIsTheSameFromAllSides)
 {

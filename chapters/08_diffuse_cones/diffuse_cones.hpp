@@ -21,8 +21,8 @@ struct ConeParams {
     // Step over the cone's diameter, 0.05 .. 4: time goes with 1 / step.
     float step = 1.0f;
     // Voxels from the middle of the surface's own voxel to the cone's start, 0 .. 8: with more, light of what is near
-    // looks nearer than it is (a lamp at height h by h^2 / (h - offset)^2); with 0, curved sheets shadow themselves.
-    float start_offset = 0.5f;
+    // looks nearer than it is (a lamp at height h by h^2 / (h - offset)^2); with less, slanted surfaces light themselves.
+    float start_offset = 0.75f;
     // linear: coverages add up until nothing is left, right for surfaces; exponential: as in a fog, for comparison.
     int transmittance = 0;
     // Ambient occlusion falls off as 1 / (1 + lambda r), lambda in 1/m, 0 .. 100.

@@ -65,10 +65,16 @@ TEST_P(NearLight, IsFiniteAndTheRestIsExact)
 }
 INSTANTIATE_TEST_SUITE_P(Distance, NearLight, testing::Values(0.3f * kVoxel, 0.02f * kVoxel, 1e-4f));
 
-TEST(VoxelLight, InTheMiddleOfAVoxelsSurfaceIsFinite)
+// At the very point where a face is lit, where the distance is 0; and in an edge and a corner of the room.
+TEST(VoxelLight, OnTheSurfaceItselfIsFinite)
 {
-    // On the surface itself, at the centroid of a face, where d = 0; and in the corner of the room.
-    for (const glm::vec3 position : {glm::vec3(0.5f * kVoxel, -1.0f, 0.5f * kVoxel), glm::vec3(0, -1, 0), glm::vec3(-1, -1, -1)})
+    const VoxelPipeline dark(room_with(point({0, 0, 0}, 0.0f)), kVoxels);
+    const std::vector<LitFace> faces = dark.faces();
+    for (const std::size_t i : {faces.size() / 5, faces.size() / 2, faces.size() - 40}) {
+        const glm::vec3 position = glm::vec3(faces[i].mean.position) * dark.grid().origin.w + glm::vec3(dark.grid().origin);
+        expect_finite(VoxelPipeline(room_with(point(position)), kVoxels));
+    }
+    for (const glm::vec3 position : {glm::vec3(0, -1, -1), glm::vec3(-1, -1, -1)})
         expect_finite(VoxelPipeline(room_with(point(position)), kVoxels));
 }
 
