@@ -18,10 +18,7 @@ try {
     ShadowMapParams shadow_params;
     LayerViewParams layer_params;
     DisplayParams display_params;
-    ParameterTable parameters;
-    add_parameters(parameters, shadow_params);
-    add_parameters(parameters, layer_params);
-    add_parameters(parameters, display_params);
+    ParameterTable parameters = parameters_of(shadow_params, layer_params, display_params);
 
     App app(argc, argv,
             {"03_shadow_map",

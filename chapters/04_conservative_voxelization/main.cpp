@@ -19,9 +19,7 @@ try {
     voxelizer_params.count_fragments = true;
     VoxelViewParams view_params;
     DisplayParams display_params;
-    ParameterTable parameters;
-    add_parameters(parameters, grid_params);
-    add_parameters(parameters, voxelizer_params);
+    ParameterTable parameters = parameters_of(grid_params, voxelizer_params);
     parameters.add("conservative", voxelizer_params.conservative, "off: plain rasterization, which leaves holes");
     add_parameters(parameters, view_params);
     add_parameters(parameters, display_params);

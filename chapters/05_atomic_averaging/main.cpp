@@ -33,10 +33,7 @@ try {
     DisplayParams display_params;
     int averaging = int(Averaging::sums);
     bool count_changes = false;
-    ParameterTable parameters;
-    add_parameters(parameters, grid_params);
-    add_parameters(parameters, voxelizer_params);
-    add_parameters(parameters, display_params);
+    ParameterTable parameters = parameters_of(grid_params, voxelizer_params, display_params);
     parameters.add("averaging", averaging, {"sums", "compare_and_swap", "racing_store"},
                    "how final and base_color are averaged; all later chapters use the sums");
     parameters.add("count_changes", count_changes, "with --frames: count what differs from the first frame (slow)");

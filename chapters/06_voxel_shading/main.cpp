@@ -19,12 +19,8 @@ try {
     VoxelShadingParams shading_params;
     ShadowMapParams shadow_params;
     DisplayParams display_params;
-    ParameterTable parameters;
-    add_parameters(parameters, grid_params);
-    add_parameters(parameters, voxelizer_params);
-    add_parameters(parameters, shading_params);
-    add_parameters(parameters, shadow_params);
-    add_parameters(parameters, display_params);
+    ParameterTable parameters = parameters_of(grid_params, voxelizer_params, shading_params, shadow_params,
+                                              display_params);
 
     App app(argc, argv,
             {"06_voxel_shading",
@@ -46,6 +42,7 @@ try {
     ToneMapPass tone_map(app.shaders());
 
     while (app.next_frame()) {
+        // snippet: frame
         // What the lights see.
         app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
 
@@ -55,6 +52,7 @@ try {
 
         // Material and lights -> radiance of every face.
         app.pass("voxel shading", [&] { shading.run(scene, grid, voxelizer, faces, shadow_maps); });
+        // end snippet
 
         // Faces -> picture. Offsets within shared::VoxelFace are in vec4.
         constexpr int kFaceStride = int(sizeof(shared::VoxelFace) / sizeof(glm::vec4));

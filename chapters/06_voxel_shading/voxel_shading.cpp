@@ -33,11 +33,13 @@ void VoxelShading::run(const GpuScene& scene, const VoxelGrid& grid, const Conse
     scene.bind_lights(program_);
     shadow_maps.bind(program_);
     program_.set("soft_sharpness", params_.soft_sharpness);
+    // snippet: dispatch
     radiance_.bind(GL_SHADER_STORAGE_BUFFER, 11);
     visibility_.bind(GL_SHADER_STORAGE_BUFFER, 12);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    // end snippet
 }
 
 }  // namespace conebook

@@ -2,9 +2,9 @@
 //
 // For each direction, two voxels behind each other and four columns beside each other:
 //
-//     c = 1/4 sum_columns (c_front + (A - A_front) L_back),   A = min(A_front + A_back, 1)
+//     C = 1/4 sum_columns (C_front + s C_back),   s = min((1 - A_front) / A_back, 1)
 //
-// c: radiance times coverage, A: covered share of the cross-section.
+// C: radiance times coverage, A: covered share of the cross-section; A is filtered as C is.
 // Page: docs/07_anisotropic_mips.md
 #include "01_first_light/tone_map.hpp"
 #include "07_anisotropic_mips/lit_voxels.hpp"
@@ -18,12 +18,8 @@ try {
     VoxelViewParams level_params;
     PyramidViewParams direction_params;
     DisplayParams display_params;
-    ParameterTable parameters;
-    add_parameters(parameters, voxel_params);
-    add_parameters(parameters, shadow_params);
-    add_parameters(parameters, level_params);
-    add_parameters(parameters, direction_params);
-    add_parameters(parameters, display_params);
+    ParameterTable parameters = parameters_of(voxel_params, shadow_params, level_params, direction_params,
+                                              display_params);
 
     App app(argc, argv,
             {"07_anisotropic_mips",
@@ -39,11 +35,13 @@ try {
     ToneMapPass tone_map(app.shaders());
 
     while (app.next_frame()) {
+        // snippet: frame
         // What the lights see.
         app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
         voxels.run(app, scene, shadow_maps);
+        // end snippet
 
         // One level and direction -> picture.
         const gl::Buffer camera("camera", std::vector{app.camera()});

@@ -20,13 +20,8 @@ try {
     DiffuseConeParams diffuse_params;
     CompositeParams composite_params;
     DisplayParams display_params;
-    ParameterTable parameters;
-    add_parameters(parameters, voxel_params);
-    add_parameters(parameters, shadow_params);
-    add_parameters(parameters, cone_params);
-    add_parameters(parameters, diffuse_params);
-    add_parameters(parameters, composite_params);
-    add_parameters(parameters, display_params);
+    ParameterTable parameters = parameters_of(voxel_params, shadow_params, cone_params, diffuse_params,
+                                              composite_params, display_params);
 
     App app(argc, argv,
             {"08_diffuse_cones",

@@ -22,14 +22,8 @@ try {
     SpecularConeParams specular_params;
     CompositeParams composite_params;
     DisplayParams display_params;
-    ParameterTable parameters;
-    add_parameters(parameters, specular_params);
-    add_parameters(parameters, voxel_params);
-    add_parameters(parameters, shadow_params);
-    add_parameters(parameters, cone_params);
-    add_parameters(parameters, diffuse_params);
-    add_parameters(parameters, composite_params);
-    add_parameters(parameters, display_params);
+    ParameterTable parameters = parameters_of(specular_params, voxel_params, shadow_params, cone_params,
+                                              diffuse_params, composite_params, display_params);
 
     App app(argc, argv,
             {"09_specular_cones",

@@ -18,13 +18,8 @@ try {
     CompositeParams composite_params;
     DisplayParams display_params;
     shadow_params.shadows = int(ShadowMethod::cone);
-    ParameterTable parameters;
-    add_parameters(parameters, shadow_params);
-    add_parameters(parameters, voxel_params);
-    add_parameters(parameters, shadow_map_params);
-    add_parameters(parameters, cone_params);
-    add_parameters(parameters, composite_params);
-    add_parameters(parameters, display_params);
+    ParameterTable parameters = parameters_of(shadow_params, voxel_params, shadow_map_params, cone_params,
+                                              composite_params, display_params);
 
     App app(argc, argv,
             {"10_soft_shadows",

@@ -21,14 +21,8 @@ try {
     CompositeParams composite_params;
     DisplayParams display_params;
     cone_params.cones = 3;  // 16: emitters are small and bright, a cone meets them or not
-    ParameterTable parameters;
-    add_parameters(parameters, voxel_params);
-    add_parameters(parameters, shadow_params);
-    add_parameters(parameters, cone_params);
-    add_parameters(parameters, diffuse_params);
-    add_parameters(parameters, specular_params);
-    add_parameters(parameters, composite_params);
-    add_parameters(parameters, display_params);
+    ParameterTable parameters = parameters_of(voxel_params, shadow_params, cone_params, diffuse_params,
+                                              specular_params, composite_params, display_params);
 
     App app(argc, argv,
             {"11_emissives",

@@ -24,16 +24,9 @@ try {
     BounceParams bounce_params;
     CompositeParams composite_params;
     DisplayParams display_params;
-    ParameterTable parameters;
-    add_parameters(parameters, voxel_params);
-    add_parameters(parameters, bounce_params);
-    add_parameters(parameters, cone_params);
-    add_parameters(parameters, diffuse_params);
-    add_parameters(parameters, specular_params);
-    add_parameters(parameters, shadow_params);
-    add_parameters(parameters, shadow_map_params);
-    add_parameters(parameters, composite_params);
-    add_parameters(parameters, display_params);
+    ParameterTable parameters = parameters_of(voxel_params, bounce_params, cone_params, diffuse_params,
+                                              specular_params, shadow_params, shadow_map_params, composite_params,
+                                              display_params);
 
     App app(argc, argv,
             {"12_second_bounce",
@@ -110,9 +103,12 @@ try {
     counts.push_back({"gatherings from voxel to voxel", double(second_bounce.gatherings()), ""});
     app.statistics().set_counts(counts);
     for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), second_bounce.resources(),
-                             g_buffer.resources(), direct_lighting.resources(), diffuse_cones.resources(),
-                             specular_cones.resources()})
+                             g_buffer.resources(), direct_lighting.resources()})
         app.statistics().add_resources(part);
+    if (bounce_params.bounces != 0) {
+        app.statistics().add_resources(diffuse_cones.resources());
+        app.statistics().add_resources(specular_cones.resources());
+    }
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

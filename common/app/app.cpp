@@ -1,5 +1,6 @@
 #include "app/app.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -178,8 +179,12 @@ int App::finish()
 int report_failure(const std::exception& error)
 {
     if (const auto* exit = dynamic_cast<const ExitRequest*>(&error)) return exit->code;
-    std::string line = error.what();
-    std::cerr << line << "\n";
+    // One line, so that the fault cannot scroll away; a driver may have more to say of a shader.
+    const std::string all = error.what();
+    const std::size_t end = all.find('\n');
+    std::cerr << all.substr(0, end);
+    if (end != std::string::npos) std::cerr << " (and " << std::count(all.begin() + std::ptrdiff_t(end), all.end(), '\n') << " more)";
+    std::cerr << "\n";
     return EXIT_FAILURE;
 }
 

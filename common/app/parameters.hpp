@@ -38,4 +38,13 @@ private:
     std::vector<Parameter> parameters_;
 };
 
+// A table of several structs' fields, by their overloads of add_parameters(ParameterTable&, Params&).
+template <typename... Params>
+ParameterTable parameters_of(Params&... params)
+{
+    ParameterTable table;
+    (add_parameters(table, params), ...);
+    return table;
+}
+
 }  // namespace conebook

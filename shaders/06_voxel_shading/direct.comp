@@ -21,6 +21,7 @@ uniform float soft_sharpness;  // voxels
 
 // Cosine of the mean normal, or Villegas 2016, section 4.4: every axis weighs with the square of the normal's
 // component and receives what light falls on its side.
+// snippet: cosine_factor
 float cosine_factor(vec3 n, vec3 l)
 {
 #if DIRECTIONAL_LAMBERT
@@ -29,6 +30,7 @@ float cosine_factor(vec3 n, vec3 l)
     return max(dot(n, l), 0.0);
 #endif
 }
+// end snippet
 
 // Shadow rays start two voxels away from the face, where its own voxels no longer block them.
 const float kRayStart = 2.0;  // voxels
@@ -70,11 +72,14 @@ void main()
     for (int i = 0; i < light_count; ++i) {
         LightSample light = sample_light(lights[i], position);
         float visible = 1.0;
+        // snippet: visible
 #if SHADOWS == 1
+        // A face's mean point may lie inside a round surface: the lookup starts half a voxel outside.
         visible = shadow_map_visibility(i, lights[i], position + 0.5 * grid.origin.w * normal, normal);
 #elif SHADOWS >= 2
         visible = ray_visibility(face.position.xyz, normal, light.direction, light.distance / grid.origin.w);
 #endif
+        // end snippet
         // snippet: irradiance
         vec3 unblocked = light.irradiance * cosine_factor(normal, light.direction);
         irradiance += visible * unblocked;
@@ -84,7 +89,9 @@ void main()
         unshadowed += visible * weight;
         if (i < 4) visibility[i] = visible;
     }
+    // snippet: radiance
     vec3 radiance = face.emission.rgb + face.albedo_area.rgb / kPi * irradiance;
     face_radiance[place] = vec4(radiance, total > 0.0 ? unshadowed / total : 1.0);
     face_visibility[place] = packUnorm4x8(visibility);
+    // end snippet
 }
