@@ -8,7 +8,7 @@ namespace conebook {
 
 void add_parameters(ParameterTable& table, PyramidParams& params)
 {
-    table.add("isotropic", params.isotropic, "one value for all six directions, for comparison");
+    table.add("isotropic", params.isotropic, "finest level: one value for all six directions, for comparison");
 }
 
 void add_parameters(ParameterTable& table, PyramidViewParams& params)

@@ -6,7 +6,7 @@
 namespace conebook {
 
 struct PyramidParams {
-    // isotropic: all six directions hold the same, for comparison.
+    // The six directions of the finest level hold the same, for comparison: a wall then covers along itself too.
     bool isotropic = false;
 };
 void add_parameters(ParameterTable& table, PyramidParams& params);

@@ -26,7 +26,7 @@ void main()
         }
         sum /= column_weight(voxel, direction, 0);
         sum /= max(sum.a, 1.0);  // surfaces behind each other cover no more than the whole
-        imageStore(light, atlas_texel(direction, voxel, 0), min(sum, vec4(65504.0)));
+        imageStore(light, atlas_texel(direction, voxel, 0), nearest_half(min(sum, vec4(65504.0))));
     }
     // end snippet
 }

@@ -34,5 +34,5 @@ void main()
         weights += weight;
         // end snippet
     }
-    imageStore(light, atlas_texel(face, voxel, level), sum / weights);
+    imageStore(light, atlas_texel(face, voxel, level), nearest_half(sum / weights));
 }

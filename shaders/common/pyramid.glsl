@@ -16,7 +16,7 @@ float inside_share(ivec3 voxel, int axis, int level)
 {
     float size = float(1 << level), low = float(voxel[axis]) * size;
     float inside = min(low + size, grid.content_max[axis]) - max(low, grid.content_min[axis]);
-    return clamp(inside / size, 1e-3, 1.0);
+    return clamp(inside / size, 1e-6, 1.0);
 }
 
 // Weight of a column of voxels along the face's axis in the mean over its cross-section.
@@ -25,3 +25,7 @@ float column_weight(ivec3 voxel, int face, int level)
     int axis = face >> 1;
     return inside_share(voxel, (axis + 1) % 3, level) * inside_share(voxel, (axis + 2) % 3, level);
 }
+
+// The nearest half-float values. What imageStore does is left to the driver (OpenGL 4.6, 2.3.4.2); some cut off, and
+// a bias of half a unit a level would add up.
+vec4 nearest_half(vec4 v) { return vec4(unpackHalf2x16(packHalf2x16(v.xy)), unpackHalf2x16(packHalf2x16(v.zw))); }

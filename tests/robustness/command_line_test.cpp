@@ -1,0 +1,254 @@
+// Every chapter's program: bad input gives one clear line, a code above 0 and no file; good input gives the picture
+// from any working directory and from any copy of the repository.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <epoxy/gl.h>
+#include <unistd.h>
+#include <gtest/gtest.h>
+
+#include "app/app.hpp"
+#include "image/image.hpp"
+#include "program.hpp"
+#include "temporary_folder.hpp"
+
+namespace conebook {
+namespace {
+
+std::filesystem::path root()
+{
+    const char* folder = std::getenv("CONEBOOK_ROOT");
+    return folder != nullptr ? folder : ".";
+}
+
+std::vector<std::string> chapters()
+{
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(root() / "chapters", error)) {
+        const std::string name = entry.path().filename().string();
+        if (std::filesystem::exists(entry.path() / "main.cpp")) names.push_back(name);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+// Small pictures; chapters 01 to 03 have no grid.
+std::string small(const std::string& program)
+{
+    return std::string(" --headless ") + (std::stoi(program) >= 4 ? "--set voxels=16 " : "");
+}
+
+class Program : public testing::TestWithParam<std::string> {
+protected:
+    // `arguments` must be refused with one line that holds `part`, and leave nothing in the folder.
+    void expect_refusal(const std::string& arguments, const std::string& part)
+    {
+        const TemporaryFolder folder;
+        const bool has_output = arguments.find("--output") != std::string::npos;
+        const std::string output = has_output ? "" : " --output '" + (folder / "x.png").string() + "'";
+        const std::string stats = " --stats '" + (folder / "x.json").string() + "'";
+        const std::string size = arguments.find("--size") != std::string::npos ? "" : " --size 64x64";
+        const ProgramRun run = run_program(GetParam(), small(GetParam()) + arguments + size + output + stats);
+        SCOPED_TRACE(GetParam() + " " + arguments);
+        EXPECT_GT(run.code, 0) << run.output;
+        EXPECT_LT(run.code, 128) << "ended by a signal: " << run.output;
+        EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+        EXPECT_NE(run.output.find(part), std::string::npos) << run.output << " should say " << part;
+        EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "something was written";
+    }
+    Image8 picture(const std::string& arguments)
+    {
+        const TemporaryFolder folder;
+        const std::filesystem::path file = folder / "x.png";
+        const ProgramRun run = run_program(GetParam(), small(GetParam()) + "--size 64x64 " + arguments + " --output '" + file.string() + "'");
+        EXPECT_EQ(run.code, 0) << run.output;
+        return run.code == 0 ? read_png(file) : Image8{};
+    }
+};
+
+TEST_P(Program, RefusesABadCommandLine)
+{
+    expect_refusal("--size 0x10", "0x10");
+    expect_refusal("--size 10x", "10x");
+    expect_refusal("--size=-5x5", "-5x5");
+    expect_refusal("--size 10x10x", "10x10x");
+    expect_refusal("--size 99999999999x5", "99999999999x5");
+    expect_refusal("--size large", "large");
+    expect_refusal("--view no_such_view", "no_such_view");
+    expect_refusal("--set no_such_parameter=1", "no_such_parameter");
+    expect_refusal("--set exposure=-1", "exposure");
+    expect_refusal("--set exposure=1e7", "exposure");
+    expect_refusal("--set exposure=nan", "exposure");
+    expect_refusal("--set exposure=inf", "exposure");
+    expect_refusal("--set exposure=", "exposure");
+    expect_refusal("--set exposure=2x", "exposure");
+    expect_refusal("--set exposure", "exposure");
+    expect_refusal("--set tone_curve=no_such_curve", "tone_curve");
+    expect_refusal("--frames 0", "frames");
+    expect_refusal("--frames -1", "frames");
+    expect_refusal("--frames many", "many");
+    expect_refusal("--camera 99", "99");
+    expect_refusal("--camera -1", "camera");
+    expect_refusal("--no-such-option", "--no-such-option");
+    expect_refusal("stray", "stray");
+}
+
+TEST_P(Program, RefusesAnOutputThatCannotBe)
+{
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "taken.png");
+    expect_refusal("--output '" + (folder / "x.jpg").string() + "'", "x.jpg");
+    expect_refusal("--output '" + (folder / "no_such_folder" / "x.png").string() + "'", "no_such_folder");
+    expect_refusal("--output '" + (folder / "taken.png").string() + "'", "taken.png");
+    expect_refusal("--output /proc/x.png", "/proc/x.png");  // a folder in which not even root can write
+}
+
+TEST_P(Program, RefusesABadScene)
+{
+    const TemporaryFolder folder;
+    const auto write = [&](const char* name, const std::string& bytes) {
+        std::ofstream(folder / name, std::ios::binary) << bytes;
+        return "--scene '" + (folder / name).string() + "'";
+    };
+    std::ifstream whole(root() / "assets" / "cornell_box.glb", std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(whole)), {});
+    ASSERT_GT(bytes.size(), 2000u);
+    expect_refusal("--scene '" + (folder / "no_such.glb").string() + "'", "no_such.glb");
+    expect_refusal("--scene '" + folder.path().string() + "'", folder.path().filename().string());
+    expect_refusal(write("empty.glb", ""), "empty.glb");
+    expect_refusal(write("truncated.glb", bytes.substr(0, bytes.size() / 2)), "truncated.glb");
+    expect_refusal(write("text.gltf", "not json"), "text.gltf");
+    expect_refusal(write("nothing.gltf", R"({"asset": {"version": "2.0"}})"), "nothing.gltf");
+    expect_refusal(write("draco.gltf", R"({"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_draco_mesh_compression"]})"),
+                   "KHR_draco_mesh_compression");
+}
+
+TEST_P(Program, SaysWhatItCanDo)
+{
+    const ProgramRun views = run_program(GetParam(), "--list-views"), help = run_program(GetParam(), "--help");
+    EXPECT_EQ(views.code, 0);
+    EXPECT_EQ(views.output.rfind("final\t", 0) == 0 || views.output.find("\nfinal\t") != std::string::npos, true) << views.output;
+    const ProgramRun parameters = run_program(GetParam(), "--list-params");
+    EXPECT_EQ(parameters.code, 0);
+    EXPECT_NE(parameters.output.find("exposure "), std::string::npos) << parameters.output;
+    EXPECT_EQ(help.code, 0);
+    for (const char* option : {"--scene", "--headless", "--size", "--output", "--frames", "--view", "--camera", "--stats",
+                               "--set", "--list-views", "--list-params"})
+        EXPECT_NE(help.output.find(option), std::string::npos) << option;
+}
+
+TEST_P(Program, GivesTheSamePictureFromAnotherFolderAndAfterMoreFrames)
+{
+    const Image8 here = picture("");
+    ASSERT_EQ(here.width, 64);
+    EXPECT_GT(*std::max_element(here.rgba.begin(), here.rgba.end() - 1), 0);
+    const TemporaryFolder elsewhere;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(elsewhere.path());
+    const ProgramRun relative = run_program(GetParam(), small(GetParam()) + "--size 64x64 --output relative.png");
+    EXPECT_EQ(relative.code, 0) << relative.output;
+    std::filesystem::current_path(before);
+    EXPECT_EQ(read_png(elsewhere / "relative.png").rgba, here.rgba);
+    EXPECT_EQ(picture("--frames 3").rgba, here.rgba);
+}
+
+// A copy of shaders/ and assets/ with a fault planted in `file`; $CONEBOOK_ROOT names it while this object lives.
+class CopyOfTheRoot {
+public:
+    CopyOfTheRoot() : original_(root())
+    {
+        std::filesystem::copy(original_ / "shaders", copy_ / "shaders", std::filesystem::copy_options::recursive);
+        std::filesystem::create_directory(copy_ / "assets");
+        std::filesystem::copy(original_ / "assets" / "cornell_box.glb", copy_ / "assets" / "cornell_box.glb");
+        setenv("CONEBOOK_ROOT", copy_.path().c_str(), 1);
+    }
+    ~CopyOfTheRoot() { setenv("CONEBOOK_ROOT", original_.c_str(), 1); }
+    // Returns FILE:LINE of the line.
+    std::string plant(const std::string& file, const std::string& line) const
+    {
+        std::ifstream in(copy_ / "shaders" / file);
+        const auto lines = std::count(std::istreambuf_iterator<char>(in), {}, '\n');
+        std::ofstream(copy_ / "shaders" / file, std::ios::app) << line << "\n";
+        return file + ":" + std::to_string(lines + 1);
+    }
+
+private:
+    std::filesystem::path original_;
+    TemporaryFolder copy_;
+};
+
+TEST_P(Program, NamesFileAndLineOfAFaultInAShader)
+{
+    {
+        const CopyOfTheRoot copy;
+        EXPECT_EQ(picture("").width, 64);  // the copy works
+        expect_refusal("", copy.plant("01_first_light/tone_map.frag", "int planted = ;"));
+    }
+    {
+        const CopyOfTheRoot copy;  // one line, however many the driver writes
+        expect_refusal("", copy.plant("common/fullscreen.vert", "void planted() { no_such_function();\n no_such_either(); }"));
+    }
+    {
+        // A warning is a fault. Mesa says it only once of a text: then the text is in its cache, so this one is new.
+        const CopyOfTheRoot copy;
+        const std::string name = "planted_" + std::to_string(getpid()) + "_" + GetParam();
+        expect_refusal("", copy.plant("01_first_light/tone_map.frag",
+                                      "float " + name + "() { float x; x = x + 1.0; return x; }"));
+    }
+    {
+        const CopyOfTheRoot copy;
+        expect_refusal("", copy.plant("01_first_light/tone_map.frag", "#include \"common/no_such_file.glsl\""));
+    }
+}
+
+TEST_P(Program, RefusesARootWithoutShaders)
+{
+    const std::string before = root().string();
+    const TemporaryFolder empty;
+    setenv("CONEBOOK_ROOT", empty.path().c_str(), 1);
+    expect_refusal("", "CONEBOOK_ROOT");
+    setenv("CONEBOOK_ROOT", before.c_str(), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Chapters, Program, testing::ValuesIn(chapters()),
+                         [](const auto& info) { return "c" + info.param; });
+
+// What OpenGL reports as grave ends a program without a picture, wherever it happens in the frame.
+TEST(OpenGlFaults, AGraveMessageOrAnErrorFails)
+{
+    const TemporaryFolder folder;
+    const std::string output = (folder / "x.png").string();
+    const auto finish = [&](const std::function<void()>& fault) {
+        std::vector<std::string> words = {"test", "--headless", "--size", "8x8", "--output", output};
+        std::vector<char*> argv;
+        for (std::string& word : words) argv.push_back(word.data());
+        App app(int(argv.size()), argv.data(), {"test", {{"final", Encoding::radiance, ""}}, {}});
+        const gl::Texture linear = gl::texture_2d("linear", GL_RGBA32F, {8, 8});
+        const gl::Texture display = gl::texture_2d("display", GL_RGBA8, {8, 8});
+        linear.clear();
+        while (app.next_frame()) {
+            app.pass("fault", fault);
+            app.show(linear, display);
+        }
+        return app.finish();
+    };
+    const auto message = [](GLenum severity) {
+        return [severity] {
+            glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, GL_DEBUG_TYPE_OTHER, 1, severity, -1, "planted");
+        };
+    };
+    EXPECT_THROW(finish(message(GL_DEBUG_SEVERITY_HIGH)), std::runtime_error);
+    EXPECT_FALSE(std::filesystem::exists(output));
+    EXPECT_THROW(finish([] { glBindTexture(0x1234, 1); }), std::runtime_error);
+    EXPECT_FALSE(std::filesystem::exists(output));
+    EXPECT_EQ(finish(message(GL_DEBUG_SEVERITY_NOTIFICATION)), 0);
+    EXPECT_TRUE(std::filesystem::exists(output));
+}
+
+}  // namespace
+}  // namespace conebook
