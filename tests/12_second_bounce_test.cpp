@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include "closed_room.hpp"
 #include "image/image.hpp"
 #include "program.hpp"
 #include "reference/compare_images.hpp"
 #include "reference/path_tracer.hpp"
-#include "robustness/gltf_builder.hpp"
 #include "scene/scene.hpp"
 #include "temporary_folder.hpp"
 
@@ -59,14 +59,6 @@ Spread spread_of(const ImageF& image)
         }
     s.deviation = std::sqrt(std::max(squares - s.mean * s.mean, 0.0));
     return s;
-}
-
-ImageF difference(const ImageF& a, const ImageF& b)
-{
-    ImageF out = a;
-    for (std::size_t i = 0; i < out.pixels.size(); ++i)
-        out.pixels[i] = glm::vec4(glm::vec3(a.pixels[i]) - glm::vec3(b.pixels[i]), a.pixels[i].a);
-    return out;
 }
 
 double largest_difference(const ImageF& a, const ImageF& b)
@@ -190,53 +182,18 @@ TEST(SecondBounce, RunsAreIdenticalToTheBitWithAnyNumberOfDriverThreads)
     }
 }
 
-// A closed cube of side 2 round the origin, every wall rho, Le = 0.1, and a camera in it.
-std::filesystem::path write_room(const std::filesystem::path& folder, double rho)
-{
-    test::GltfBuilder gltf;
-    std::vector<float> positions;
-    std::vector<std::uint16_t> indices;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const float side : {-1.0f, 1.0f}) {
-            const auto base = std::uint16_t(positions.size() / 3);
-            for (const glm::vec2 corner : {glm::vec2(-1, -1), glm::vec2(1, -1), glm::vec2(1, 1), glm::vec2(-1, 1)}) {
-                glm::vec3 p;
-                p[axis] = side;
-                p[(axis + 1) % 3] = corner.x;
-                p[(axis + 2) % 3] = corner.y;
-                positions.insert(positions.end(), {p.x, p.y, p.z});
-            }
-            // Counter-clockwise as seen from inside: the normal is -side along the axis.
-            for (const int i : {0, 1, 2, 0, 2, 3})
-                indices.push_back(std::uint16_t(base + (side < 0.0f ? i : (4 - i) % 4)));
-        }
-    const int position = gltf.add_floats(positions, 3);
-    const int index = gltf.add_accessor(indices, test::u16, "SCALAR");
-    gltf.add_mesh({{"attributes", {{"POSITION", position}}}, {"indices", index}, {"material", 0}});
-    gltf.append("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {rho, rho, rho, 1.0}},
-                                                        {"metallicFactor", 0.0}}},
-                              {"emissiveFactor", {0.1, 0.1, 0.1}},
-                              {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0.0}}}}}});
-    gltf.root["extensionsUsed"] = {"KHR_materials_specular"};
-    gltf.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.2}, {"znear", 0.01}}}});
-    gltf.add_node({{"mesh", 0}});
-    gltf.add_node({{"camera", 0}, {"translation", {0.3, 0.2, 0.1}}});
-    gltf.root["scenes"][0]["nodes"] = {0, 1};
-    return test::write_file(folder / "room.glb", gltf.glb());
-}
-
 TEST(SecondBounce, AWhiteRoomStaysBounded)
 {
     const TemporaryFolder folder;
     // The voxels' albedo is held at 0.99, the pixel's is 1: L = Le (1 + (1 - 0.99^64) / (1 - 0.99)) = 48.44 Le.
     const double expected = 0.1 * (1.0 + (1.0 - std::pow(0.99, 64)) / 0.01);
-    const Spread s = spread_of(render(write_room(folder.path(), 1.0), "bounces=64", "final", "12_second_bounce", 16));
+    const Spread s = spread_of(render(write_closed_room(folder.path(), 1.0, 0.1), "bounces=64", "final", "12_second_bounce", 16));
     std::printf("rho 1, 64 bounces: mean %.3f Le, largest %.3f Le\n", s.mean / 0.1, s.largest / 0.1);
     EXPECT_TRUE(s.finite);
     EXPECT_NEAR(s.mean, expected, 0.02 * expected);
     EXPECT_LE(s.largest, 65.0 * 0.1);  // without any loss each bounce adds Le
 
-    const Spread converged = spread_of(render(write_room(folder.path(), 1.0), "bounces=-1", "final", "12_second_bounce", 16));
+    const Spread converged = spread_of(render(write_closed_room(folder.path(), 1.0, 0.1), "bounces=-1", "final", "12_second_bounce", 16));
     EXPECT_TRUE(converged.finite);
     // At most the steady state of 0.99, Le / (1 - 0.99), seen through a surface of 1.
     EXPECT_LE(converged.largest, 0.1 * (1.0 + 100.0) * 1.02);
@@ -246,9 +203,9 @@ TEST(SecondBounce, AnAlbedoAboveOneIsReportedAndHeldAtOne)
 {
     const TemporaryFolder folder;
     std::string said;
-    const ImageF clamped = render(write_room(folder.path(), 1.5), "bounces=64", "final", "12_second_bounce", 16, &said);
+    const ImageF clamped = render(write_closed_room(folder.path(), 1.5, 0.1), "bounces=64", "final", "12_second_bounce", 16, &said);
     EXPECT_NE(said.find("baseColorFactor"), std::string::npos) << said;
-    EXPECT_EQ(largest_difference(clamped, render(write_room(folder.path(), 1.0), "bounces=64", "final", "12_second_bounce", 16)), 0.0);
+    EXPECT_EQ(largest_difference(clamped, render(write_closed_room(folder.path(), 1.0, 0.1), "bounces=64", "final", "12_second_bounce", 16)), 0.0);
 }
 
 TEST(SecondBounce, EveryValueIsFinite)

@@ -26,7 +26,8 @@ inline std::string program_folder()
 inline ProgramRun run_program(const std::string& name, const std::string& arguments)
 {
     ProgramRun run;
-    const std::string command = "'" + program_folder() + "/" + name + "' " + arguments + " 2>&1";
+    std::string command = "'";
+    command += program_folder() + "/" + name + "' " + arguments + " 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
     if (!pipe) return run;
     std::array<char, 4096> buffer;

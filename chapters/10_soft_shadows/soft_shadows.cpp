@@ -54,7 +54,7 @@ const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuSce
                                            const ConeParams& cone_params, const SoftShadowParams& params,
                                            bool show_visibility)
 {
-    gl::fit_to_pixels(color_, framebuffer_, "softly shadowed light", GL_RGBA16F, g_buffer.size());
+    gl::fit_to_pixels(color_, framebuffer_, "softly shadowed light", GL_RGBA32F, g_buffer.size());
     if (method_ == ShadowMethod::volume) fill_volume(grid, faces, shading);
     g_buffer.bind();
     grid.bind();

@@ -27,7 +27,7 @@ class SoftShadowLighting {
 public:
     SoftShadowLighting(gl::Shaders& shaders, const VoxelGrid& grid, ShadowMethod method);
 
-    // RGBA16F of the g-buffer's size: radiance of direct light, or the mean visible share of the lights (0..1).
+    // RGBA32F of the g-buffer's size: radiance of direct light, or the mean visible share of the lights (0..1).
     // Of `cone_params`, step and start_offset count.
     const gl::Texture& run(const GBuffer& g_buffer, const GpuScene& scene, const LitVoxels& voxels,
                            const ShadowMaps& shadow_maps, const ConeParams& cone_params, const SoftShadowParams& params,

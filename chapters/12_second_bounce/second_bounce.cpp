@@ -53,6 +53,7 @@ void SecondBounce::run(LitVoxels& voxels, const DiffuseConeUniforms& cones, cons
         glDispatchComputeIndirect(0);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 
+        // snippet: next_bounce
         // The pyramids again, from what the faces send now.
         voxels.pyramid().run(voxels.grid(), faces, bounced_);
         if (!to_convergence) continue;
@@ -61,6 +62,7 @@ void SecondBounce::run(LitVoxels& voxels, const DiffuseConeUniforms& cones, cons
             ++gatherings_;
             break;
         }
+        // end snippet
     }
 }
 

@@ -30,9 +30,14 @@ void main()
     vec3 albedo = surface.f0 * table.x + surface.f90 * table.y;
     bool reflects = max(albedo.r, max(albedo.g, albedo.b)) > 1e-4;
 
-    // The surface cuts the lobe at its horizon, so a grazing cone is no wider than the angle to it.
+    // The surface cuts the lobe at its horizon: what is left of it is narrower, and its middle lies higher.
     vec3 mirrored = reflect(-view, normal);
-    float half_angle = min(lobe_half_angle(surface.roughness * surface.roughness, lobe_share), asin(n_dot_v));
+    float elevation = asin(min(n_dot_v, 1.0)), half_angle = lobe_half_angle(surface.roughness * surface.roughness, lobe_share);
+    if (half_angle > elevation) {
+        half_angle = 0.5 * (elevation + half_angle);
+        vec3 along = mirrored - dot(mirrored, normal) * normal;
+        mirrored = cos(half_angle) * along / max(length(along), 1e-6) + sin(half_angle) * normal;
+    }
     Cone cone = cone_above(grid_from_scene(surface.position), surface.geometric_normal, start_offset, mirrored,
                            tan(half_angle));
     ConeLight light = trace_cone(cone, reflects ? cone_end(cone) : 0.0);

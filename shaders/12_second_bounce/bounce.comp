@@ -13,10 +13,12 @@ void main()
     uint place = gl_GlobalInvocationID.x;
     if (place >= voxel_statistics.faces) return;
     VoxelFace face = faces[place];
+    // snippet: gather_face
     // In every 4 x 4 voxels of a wall each of the 16 sets of cones comes once.
     ivec3 voxel = unpack_voxel(face_list[place]) & 3;
     int axis = int(face_list[place] >> 27) >> 1;
     int neighbour = voxel[(axis + 1) % 3] + 4 * voxel[(axis + 2) % 3];
     vec3 normal = face.normal.xyz;
     gathered[place] = vec4(gather_diffuse(face.position.xyz, normal, normal, neighbour).mean_radiance, 0.0);
+    // end snippet
 }

@@ -43,10 +43,12 @@ void main()
 {
     uint place = gl_GlobalInvocationID.x;
     if (place >= voxel_statistics.faces) return;
+    // snippet: send_on
     vec3 albedo = min(faces[place].albedo_area.rgb, vec3(kMaxAlbedo));
     vec3 radiance = direct_radiance[place].rgb + albedo * shared_with_wall(place, faces[place].normal.xyz);
     vec3 change = abs(radiance - bounced_radiance[place].rgb);
     bounced_radiance[place] = vec4(radiance, direct_radiance[place].a);
+    // end snippet
     // Floats that are not negative have the order of their bits.
     atomicMax(largest_change, floatBitsToUint(max(change.r, max(change.g, change.b))));
     atomicMax(largest_radiance, floatBitsToUint(max(radiance.r, max(radiance.g, radiance.b))));
