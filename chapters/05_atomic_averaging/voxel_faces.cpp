@@ -23,18 +23,11 @@ void grow(gl::Buffer& buffer, const std::string& label, std::size_t bytes)
     if (!buffer || buffer.bytes() < bytes) buffer = gl::Buffer(label, bytes);
 }
 
-bool has_textures(const GpuScene& scene)
-{
-    for (const gl::Resource& resource : scene.resources())
-        if (resource.name == "scene textures") return resource.bytes > 0;
-    return false;
-}
-
 }  // namespace
 
 gl::Defines column_defines(const GpuScene& scene)
 {
-    return {{"CONSERVATIVE", "1"}, {"ATTRIBUTES", "1"}, {"TEXTURES", has_textures(scene) ? "1" : "0"}};
+    return {{"CONSERVATIVE", "1"}, {"ATTRIBUTES", "1"}, {"TEXTURES", scene.has_textures() ? "1" : "0"}};
 }
 
 VoxelFaces::VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
@@ -53,7 +46,7 @@ VoxelFaces::VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const Conser
 
 const gl::Program& VoxelFaces::accumulate_program(const GpuScene& scene, Voxelizer voxelizer)
 {
-    gl::Program& program = accumulate_[{has_textures(scene), scene.has_emission()}];
+    gl::Program& program = accumulate_[{scene.has_textures(), scene.has_emission()}];
     if (program.id() != 0) return program;
     gl::Defines defines = column_defines(scene);
     defines["EMISSION"] = scene.has_emission() ? "1" : "0";

@@ -33,6 +33,7 @@ public:
     const std::vector<Light>& lights() const { return lights_; }
     std::size_t triangle_count() const { return triangle_count_; }
     bool has_emission() const { return has_emission_; }
+    bool has_textures() const { return !textures_.empty(); }
     std::vector<gl::Resource> resources() const;
 
 private:

@@ -40,7 +40,7 @@ CONEBOOK_CONSTANT int kSumEmission = 4;   // 3
 CONEBOOK_CONSTANT int kSumNormal = 7;     // 3, of (n + 1)
 CONEBOOK_CONSTANT int kSumPosition = 10;  // 3, within the voxel, 0..1
 CONEBOOK_CONSTANT int kSumCount = 13;
-CONEBOOK_CONSTANT float kFixedPointOne = 1073741824.0;  // 2^30: a fragment's area is at most sqrt(3) (< 4 = 2^32 / 2^30)
+CONEBOOK_CONSTANT float kFixedPointOne = 1073741824.0;  // 2^30: area * (n + 1) of a fragment is at most 2 sqrt(3) < 4 = 2^32 / 2^30
 
 // Counters of one voxelization.
 struct VoxelStatistics {
