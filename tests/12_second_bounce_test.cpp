@@ -32,8 +32,8 @@ ImageF render(const std::filesystem::path& scene, const std::string& set, const 
     const TemporaryFolder folder;
     const std::filesystem::path file = folder / "picture.exr";
     const ProgramRun run = run_program(program, "--headless --size 128x128 --scene '" + scene.string() + "' --view " +
-                                                    view + " --output '" + file.string() + "' --set voxels=" +
-                                                    std::to_string(voxels) + " " + set);
+                                                    view + " --output '" + file.string() +
+                                                    "' --set voxels=" + std::to_string(voxels) + " " + set);
     EXPECT_EQ(run.code, 0) << run.output;
     if (said != nullptr) *said = run.output;
     return run.code == 0 ? read_exr(file) : ImageF{1, 1, {glm::vec4(0.0f)}};
@@ -187,13 +187,15 @@ TEST(SecondBounce, AWhiteRoomStaysBounded)
     const TemporaryFolder folder;
     // The voxels' albedo is held at 0.99, the pixel's is 1: L = Le (1 + (1 - 0.99^64) / (1 - 0.99)) = 48.44 Le.
     const double expected = 0.1 * (1.0 + (1.0 - std::pow(0.99, 64)) / 0.01);
-    const Spread s = spread_of(render(write_closed_room(folder.path(), 1.0, 0.1), "bounces=64", "final", "12_second_bounce", 16));
+    const Spread s =
+        spread_of(render(write_closed_room(folder.path(), 1.0, 0.1), "bounces=64", "final", "12_second_bounce", 16));
     std::printf("rho 1, 64 bounces: mean %.3f Le, largest %.3f Le\n", s.mean / 0.1, s.largest / 0.1);
     EXPECT_TRUE(s.finite);
     EXPECT_NEAR(s.mean, expected, 0.02 * expected);
     EXPECT_LE(s.largest, 65.0 * 0.1);  // without any loss each bounce adds Le
 
-    const Spread converged = spread_of(render(write_closed_room(folder.path(), 1.0, 0.1), "bounces=-1", "final", "12_second_bounce", 16));
+    const Spread converged =
+        spread_of(render(write_closed_room(folder.path(), 1.0, 0.1), "bounces=-1", "final", "12_second_bounce", 16));
     EXPECT_TRUE(converged.finite);
     // At most the steady state of 0.99, Le / (1 - 0.99), seen through a surface of 1.
     EXPECT_LE(converged.largest, 0.1 * (1.0 + 100.0) * 1.02);
@@ -203,9 +205,12 @@ TEST(SecondBounce, AnAlbedoAboveOneIsReportedAndHeldAtOne)
 {
     const TemporaryFolder folder;
     std::string said;
-    const ImageF clamped = render(write_closed_room(folder.path(), 1.5, 0.1), "bounces=64", "final", "12_second_bounce", 16, &said);
+    const ImageF clamped =
+        render(write_closed_room(folder.path(), 1.5, 0.1), "bounces=64", "final", "12_second_bounce", 16, &said);
     EXPECT_NE(said.find("baseColorFactor"), std::string::npos) << said;
-    EXPECT_EQ(largest_difference(clamped, render(write_closed_room(folder.path(), 1.0, 0.1), "bounces=64", "final", "12_second_bounce", 16)), 0.0);
+    EXPECT_EQ(largest_difference(clamped, render(write_closed_room(folder.path(), 1.0, 0.1), "bounces=64", "final",
+                                                 "12_second_bounce", 16)),
+              0.0);
 }
 
 TEST(SecondBounce, EveryValueIsFinite)

@@ -37,10 +37,10 @@ inline std::filesystem::path write_closed_room(const std::filesystem::path& fold
     const int position = gltf.add_floats(positions, 3);
     const int index = gltf.add_accessor(indices, test::u16, "SCALAR");
     gltf.add_mesh({{"attributes", {{"POSITION", position}}}, {"indices", index}, {"material", 0}});
-    gltf.append("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {rho, rho, rho, 1.0}},
-                                                        {"metallicFactor", 0.0}}},
-                              {"emissiveFactor", {emission, emission, emission}},
-                              {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0.0}}}}}});
+    gltf.append("materials",
+                {{"pbrMetallicRoughness", {{"baseColorFactor", {rho, rho, rho, 1.0}}, {"metallicFactor", 0.0}}},
+                 {"emissiveFactor", {emission, emission, emission}},
+                 {"extensions", {{"KHR_materials_specular", {{"specularFactor", 0.0}}}}}});
     gltf.root["extensionsUsed"] = {"KHR_materials_specular"};
     gltf.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.2}, {"znear", 0.01}}}});
     gltf.add_node({{"mesh", 0}, {"rotation", {rotation.x, rotation.y, rotation.z, rotation.w}}});

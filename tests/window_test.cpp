@@ -45,7 +45,8 @@ TEST(Window, ShowsWhatHeadlessShows)
     ASSERT_EQ(a.height, 180);
     ASSERT_EQ(a.rgba.size(), b.rgba.size());
     int largest = 0;
-    for (std::size_t i = 0; i < a.rgba.size(); ++i) largest = std::max(largest, std::abs(int(a.rgba[i]) - int(b.rgba[i])));
+    for (std::size_t i = 0; i < a.rgba.size(); ++i)
+        largest = std::max(largest, std::abs(int(a.rgba[i]) - int(b.rgba[i])));
     EXPECT_LE(largest, 1);
     EXPECT_GT(*std::max_element(a.rgba.begin(), a.rgba.end() - 1), 100) << "the picture is black";
 }

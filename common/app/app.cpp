@@ -183,7 +183,8 @@ int report_failure(const std::exception& error)
     const std::string all = error.what();
     const std::size_t end = all.find('\n');
     std::cerr << all.substr(0, end);
-    if (end != std::string::npos) std::cerr << " (and " << std::count(all.begin() + std::ptrdiff_t(end), all.end(), '\n') << " more)";
+    if (end != std::string::npos)
+        std::cerr << " (and " << std::count(all.begin() + std::ptrdiff_t(end), all.end(), '\n') << " more)";
     std::cerr << "\n";
     return EXIT_FAILURE;
 }

@@ -116,10 +116,11 @@ TEST(GoldenFiles, CasesAreWellFormedAndEveryPictureHasOne)
     for (const Case& c : cases) names.push_back(c.name);
     std::sort(names.begin(), names.end());
     EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end()) << "a name is there twice";
-    for (const auto& entry : std::filesystem::directory_iterator(golden_folder()))
-        if (entry.path().extension() == ".png")
-            EXPECT_TRUE(std::binary_search(names.begin(), names.end(), entry.path().stem().string()))
-                << entry.path() << " belongs to no case";
+    for (const auto& entry : std::filesystem::directory_iterator(golden_folder())) {
+        if (entry.path().extension() != ".png") continue;
+        EXPECT_TRUE(std::binary_search(names.begin(), names.end(), entry.path().stem().string()))
+            << entry.path() << " belongs to no case";
+    }
 }
 
 std::string read_line(const std::filesystem::path& file)
@@ -168,9 +169,9 @@ TEST_P(Golden, IsAsItWas)
 
     const TemporaryFolder folder;
     const std::filesystem::path actual_file = folder / (wanted.name + ".png"), stats_file = folder / "stats.json";
-    const ProgramRun run = run_program(wanted.program, wanted.arguments + " --headless --output '" +
-                                                           actual_file.string() + "' --stats '" + stats_file.string() +
-                                                           "'");
+    const ProgramRun run =
+        run_program(wanted.program, wanted.arguments + " --headless --output '" + actual_file.string() + "' --stats '" +
+                                        stats_file.string() + "'");
     ASSERT_EQ(run.code, 0) << wanted.program << wanted.arguments << "\n" << run.output;
     std::ifstream stats(stats_file);
     const std::string renderer = nlohmann::json::parse(stats).at("driver").get<std::string>();
@@ -183,8 +184,7 @@ TEST_P(Golden, IsAsItWas)
     ASSERT_TRUE(std::filesystem::exists(golden_file))
         << golden_file << " is missing; ./test --update-goldens makes it, for somebody to look at";
     const std::string made_with = read_line(renderer_file);
-    if (renderer != made_with)
-        GTEST_SKIP() << "the goldens were made with " << made_with << ", this is " << renderer;
+    if (renderer != made_with) GTEST_SKIP() << "the goldens were made with " << made_with << ", this is " << renderer;
 
     const Image8 actual = read_png(actual_file), golden = read_png(golden_file);
     ASSERT_EQ(actual.width, golden.width);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/quaternion.hpp>
 
 #include "closed_room.hpp"
 #include "image/image.hpp"
@@ -28,9 +28,9 @@ ImageF render(const std::filesystem::path& scene, const std::string& set, const 
 {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder / "picture.exr";
-    const ProgramRun run = run_program("12_second_bounce", "--headless --size 64x64 --scene '" + scene.string() +
-                                                               "' --output '" + file.string() + "' " + more +
-                                                               " --set " + set);
+    const ProgramRun run =
+        run_program("12_second_bounce", "--headless --size 64x64 --scene '" + scene.string() + "' --output '" +
+                                            file.string() + "' " + more + " --set " + set);
     EXPECT_EQ(run.code, 0) << run.output;
     return run.code == 0 ? read_exr(file) : ImageF{1, 1, {glm::vec4(0.0f)}};
 }
@@ -65,14 +65,14 @@ TEST(Furnace, ConvergedMeansOfRotatedRoomsAgree)
 TEST(Furnace, ConvergedMeansDoNotDependOnVoxelsOrStep)
 {
     std::vector<double> means;
-    for (const char* voxels : {"32", "64", "128"})
-        for (const char* step : {"0.25", "0.5", "1"}) {
-            if (std::string(voxels) == "128" && std::string(step) != "1") continue;  // half a minute each on llvmpipe
-            const std::string set = std::string("bounces=-1 voxels=") + voxels + " step=" + step;
-            means.push_back(mean_of(render(asset("white_furnace"), set)));
-            std::printf("%s: mean %.4f\n", set.c_str(), means.back());
-            EXPECT_NEAR(means.back(), 1.0, 0.02) << set;
-        }
+    // Short steps only where they are cheap: on the software driver 128 voxels with a step of 0.25 take half a minute.
+    for (const char* grid : {"voxels=32 step=0.25", "voxels=32 step=0.5", "voxels=32 step=1", "voxels=64 step=0.5",
+                             "voxels=64 step=1", "voxels=128 step=1"}) {
+        const std::string set = std::string("bounces=-1 ") + grid;
+        means.push_back(mean_of(render(asset("white_furnace"), set)));
+        std::printf("%s: mean %.4f\n", set.c_str(), means.back());
+        EXPECT_NEAR(means.back(), 1.0, 0.02) << set;
+    }
     const auto [low, high] = std::minmax_element(means.begin(), means.end());
     EXPECT_LT(*high - *low, 0.03 * *low);
 }
@@ -113,11 +113,13 @@ TEST(Extremes, ParametersAtTheirLimitsGiveFiniteAndBoundedLight)
 {
     // Light is at most that of a room that reflects all: here direct light and no loss over the bounces asked for.
     const double usual = mean_of(render(asset("cornell_box"), "voxels=32 bounces=2"));
-    for (const char* set : {"aperture=0.1", "aperture=179", "step=0.05 voxels=16", "step=4", "start_offset=0", "start_offset=8",
-                            "lobe_share=0.1", "lobe_share=0.95", "cones=5", "cones=32 interleave=off", "cone_table=thesis",
-                            "voxels=4", "light_radius=10 shadows=cone", "light_angle=60 shadows=volume", "isotropic=on"}) {
+    for (const char* set :
+         {"aperture=0.1", "aperture=179", "step=0.05 voxels=16", "step=4", "start_offset=0", "start_offset=8",
+          "lobe_share=0.1", "lobe_share=0.95", "cones=5", "cones=32 interleave=off", "cone_table=thesis", "voxels=4",
+          "light_radius=10 shadows=cone", "light_angle=60 shadows=volume", "isotropic=on"}) {
         const bool has_voxels = std::string(set).find("voxels") != std::string::npos;
-        const ImageF image = render(asset("cornell_box"), std::string(has_voxels ? "" : "voxels=32 ") + "bounces=2 " + set);
+        const ImageF image =
+            render(asset("cornell_box"), std::string(has_voxels ? "" : "voxels=32 ") + "bounces=2 " + set);
         for (const glm::vec4& pixel : image.pixels)
             for (int c = 0; c < 3; ++c) ASSERT_TRUE(std::isfinite(pixel[c]) && pixel[c] >= 0.0f) << set;
         EXPECT_LT(mean_of(image), 3.0 * usual) << set;

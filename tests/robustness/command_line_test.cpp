@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <epoxy/gl.h>
-#include <unistd.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "app/app.hpp"
 #include "image/image.hpp"
@@ -65,7 +65,8 @@ protected:
     {
         const TemporaryFolder folder;
         const std::filesystem::path file = folder / "x.png";
-        const ProgramRun run = run_program(GetParam(), small(GetParam()) + "--size 64x64 " + arguments + " --output '" + file.string() + "'");
+        const ProgramRun run = run_program(
+            GetParam(), small(GetParam()) + "--size 64x64 " + arguments + " --output '" + file.string() + "'");
         EXPECT_EQ(run.code, 0) << run.output;
         return run.code == 0 ? read_png(file) : Image8{};
     }
@@ -124,21 +125,23 @@ TEST_P(Program, RefusesABadScene)
     expect_refusal(write("truncated.glb", bytes.substr(0, bytes.size() / 2)), "truncated.glb");
     expect_refusal(write("text.gltf", "not json"), "text.gltf");
     expect_refusal(write("nothing.gltf", R"({"asset": {"version": "2.0"}})"), "nothing.gltf");
-    expect_refusal(write("draco.gltf", R"({"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_draco_mesh_compression"]})"),
-                   "KHR_draco_mesh_compression");
+    expect_refusal(
+        write("draco.gltf", R"({"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_draco_mesh_compression"]})"),
+        "KHR_draco_mesh_compression");
 }
 
 TEST_P(Program, SaysWhatItCanDo)
 {
     const ProgramRun views = run_program(GetParam(), "--list-views"), help = run_program(GetParam(), "--help");
     EXPECT_EQ(views.code, 0);
-    EXPECT_EQ(views.output.rfind("final\t", 0) == 0 || views.output.find("\nfinal\t") != std::string::npos, true) << views.output;
+    EXPECT_EQ(views.output.rfind("final\t", 0) == 0 || views.output.find("\nfinal\t") != std::string::npos, true)
+        << views.output;
     const ProgramRun parameters = run_program(GetParam(), "--list-params");
     EXPECT_EQ(parameters.code, 0);
     EXPECT_NE(parameters.output.find("exposure "), std::string::npos) << parameters.output;
     EXPECT_EQ(help.code, 0);
-    for (const char* option : {"--scene", "--headless", "--size", "--output", "--frames", "--view", "--camera", "--stats",
-                               "--set", "--list-views", "--list-params"})
+    for (const char* option : {"--scene", "--headless", "--size", "--output", "--frames", "--view", "--camera",
+                               "--stats", "--set", "--list-views", "--list-params"})
         EXPECT_NE(help.output.find(option), std::string::npos) << option;
 }
 
@@ -191,14 +194,15 @@ TEST_P(Program, NamesFileAndLineOfAFaultInAShader)
     }
     {
         const CopyOfTheRoot copy;  // one line, however many the driver writes
-        expect_refusal("", copy.plant("common/fullscreen.vert", "void planted() { no_such_function();\n no_such_either(); }"));
+        expect_refusal(
+            "", copy.plant("common/fullscreen.vert", "void planted() { no_such_function();\n no_such_either(); }"));
     }
     {
         // A warning is a fault. Mesa says it only once of a text: then the text is in its cache, so this one is new.
         const CopyOfTheRoot copy;
         const std::string name = "planted_" + std::to_string(getpid()) + "_" + GetParam();
-        expect_refusal("", copy.plant("01_first_light/tone_map.frag",
-                                      "float " + name + "() { float x; x = x + 1.0; return x; }"));
+        expect_refusal(
+            "", copy.plant("01_first_light/tone_map.frag", "float " + name + "() { float x; x = x + 1.0; return x; }"));
     }
     {
         const CopyOfTheRoot copy;

@@ -45,8 +45,8 @@ void expect_a_picture(const std::string& program, const std::filesystem::path& s
 {
     const TemporaryFolder folder;
     const std::filesystem::path file = folder / "picture.exr";
-    const ProgramRun run = run_program(program, "--headless --size 160x90 --scene '" + scene.string() + "' --output '" +
-                                                    file.string() + "' " + set);
+    const ProgramRun run = run_program(
+        program, "--headless --size 160x90 --scene '" + scene.string() + "' --output '" + file.string() + "' " + set);
     ASSERT_EQ(run.code, 0) << program << " " << scene << "\n" << run.output;
     const ImageF image = read_exr(file);
     std::size_t lit = 0;
