@@ -17,7 +17,8 @@ void add_parameters(ParameterTable& table, ConeParams& params)
 {
     table.add("cones", params.cones, {"5", "6", "9", "16", "32"}, "diffuse cones over the hemisphere");
     table.add("cone_table", params.cone_table, {"tilted", "thesis"}, "tilts that keep the cosine, or those published");
-    table.add("interleave", params.interleave, "neighbouring pixels have different cones and share them");
+    table.add("interleave", params.interleave, {"off", "on", "every_pixel"},
+              "neighbouring pixels have different cones and share them, or every pixel has all");
     table.add("aperture", params.aperture, 0.0, 179.0, "deg", "full aperture of a diffuse cone; 0: as the set asks");
     table.add("step", params.step, 0.05, 4.0, "", "step over the cone's diameter");
     table.add("start_offset", params.start_offset, 0.0, 8.0, "voxels", "from the surface to the cone's start");
@@ -46,12 +47,17 @@ void set_cone_march(const gl::Program& program, const ConeParams& params)
 }
 
 DiffuseConeUniforms::DiffuseConeUniforms(const ConeParams& params)
-    : sets_(params.interleave ? 16 : 1), cones_per_set_(kConeCounts[params.cones])
+    : sets_(params.interleave == int(Interleave::on) ? 16 : 1), cones_per_set_(kConeCounts[params.cones])
 {
+    const bool many_sets = params.interleave != int(Interleave::off);
     constexpr float kInterleavedAperture_deg = 10.0f;
-    const float aperture_deg = params.aperture == 0.0f && params.interleave ? kInterleavedAperture_deg : params.aperture;
-    const ConeSet set = make_interleaved_cones(cones_per_set_, ConeTable(params.cone_table),
-                                               glm::radians(double(aperture_deg)), sets_);
+    const float aperture_deg = params.aperture == 0.0f && many_sets ? kInterleavedAperture_deg : params.aperture;
+    ConeSet set = make_interleaved_cones(cones_per_set_, ConeTable(params.cone_table),
+                                         glm::radians(double(aperture_deg)), many_sets ? 16 : 1);
+    if (params.interleave == int(Interleave::every_pixel)) {
+        for (glm::vec4& cone : set.cones) cone.w /= 16.0f;
+        cones_per_set_ = int(set.cones.size());
+    }
     tan_half_aperture_ = std::tan(set.half_angle_rad);
     constexpr std::size_t kMostCones = 32 * 16;  // size of the uniform block
     std::vector<glm::vec4> block(kMostCones, glm::vec4(0.0f));
@@ -122,8 +128,7 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const VoxelGrid& g
 
 std::vector<gl::Resource> DiffuseCones::resources() const
 {
-    std::vector<gl::Resource> all = {gathered_.resource()};
-    if (shared_) all.push_back(shared_.resource());
+    std::vector<gl::Resource> all = {gathered_.resource(), shared_.resource()};
     for (const gl::Texture& volume : direction_volumes_) all.push_back(volume.resource());
     return all;
 }

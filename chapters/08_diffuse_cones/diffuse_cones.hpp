@@ -7,15 +7,18 @@
 
 namespace conebook {
 
+enum class Interleave : int { off = 0, on = 1, every_pixel = 2 };
+
 // What all cones have in common, of pixels and of voxels.
 struct ConeParams {
     // 5, 6, 9, 16 or 32 cones over the hemisphere (index into that list): error falls and time grows with them.
     int cones = 1;
     int cone_table = int(ConeTable::tilted);
-    // Neighbours have 16 different sets and share them: the light of 16 times the cones for the time of one set.
-    bool interleave = true;
+    // off: the same set everywhere; on: neighbours have 16 different sets and share them, the light of 16 times the cones
+    // for the time of one set; every_pixel: all 16 sets everywhere, to measure what sharing costs.
+    int interleave = int(Interleave::on);
     // Full aperture of a diffuse cone in degrees, 0 .. 179; 0: 10 for interleaved sets, whose cones lie close, and as
-    // wide as fills the hemisphere for a single set. Wider ones are faster, and blur light across edges and behind
+    // wide as fills the hemisphere for a single one. Wider ones are faster, and blur light across edges and behind
     // horizons.
     float aperture = 0.0f;
     // Step over the cone's diameter, 0.05 .. 4: time goes with 1 / step.
@@ -37,6 +40,7 @@ class DiffuseConeUniforms {
 public:
     explicit DiffuseConeUniforms(const ConeParams& params);
     void bind(const gl::Program& program, const ConeParams& params) const;
+    // Sets that neighbours have to share, 1 if none.
     int sets() const { return sets_; }
 
 private:

@@ -74,9 +74,7 @@ const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuSce
 
 std::vector<gl::Resource> SoftShadowLighting::resources() const
 {
-    std::vector<gl::Resource> all = {color_.resource()};
-    if (visibility_volume_) all.push_back(visibility_volume_.resource());
-    return all;
+    return {color_.resource(), visibility_volume_.resource()};
 }
 
 }  // namespace conebook

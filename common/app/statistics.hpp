@@ -1,7 +1,9 @@
 // What a run cost and why: times a pass, bytes a resource, what the scene needed.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <string>
 #include <vector>
@@ -27,9 +29,11 @@ struct Count {
 class Statistics {
 public:
     void add_time(const std::string& pass, double milliseconds);
+    // What was never made has no bytes and is left out.
     void add_resources(const std::vector<gl::Resource>& resources)
     {
-        resources_.insert(resources_.end(), resources.begin(), resources.end());
+        std::copy_if(resources.begin(), resources.end(), std::back_inserter(resources_),
+                     [](const gl::Resource& resource) { return resource.bytes > 0; });
     }
     void set_needs(std::vector<Need> needs) { needs_ = std::move(needs); }
     void set_counts(std::vector<Count> counts) { counts_ = std::move(counts); }

@@ -91,6 +91,7 @@ Texture::Texture(const std::string& label, GLenum target, GLenum internal_format
 
 std::size_t Texture::bytes() const
 {
+    if (levels_ == 0) return 0;  // not made yet
     std::size_t texels = 0;
     for (int level = 0; level < levels_; ++level) {
         const glm::ivec3 s = glm::max(size_ >> level, glm::ivec3(1));

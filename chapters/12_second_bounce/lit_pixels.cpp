@@ -1,0 +1,84 @@
+#include "12_second_bounce/lit_pixels.hpp"
+
+namespace conebook {
+
+void add_parameters(ParameterTable& table, LitPixelParams& params)
+{
+    add_parameters(table, params.cones);
+    add_parameters(table, params.diffuse);
+    add_parameters(table, params.specular);
+    add_parameters(table, params.shadows);
+    add_parameters(table, params.composite);
+}
+
+std::vector<View> light_views()
+{
+    return joined({{"final", Encoding::radiance, "all light"},
+                   {"direct", Encoding::radiance, "direct light alone"},
+                   {"indirect_diffuse", Encoding::radiance, "indirect light through the diffuse lobe"},
+                   {"indirect_specular", Encoding::radiance, "indirect light through the specular lobe"},
+                   {"ambient_occlusion", Encoding::data, "share of the hemisphere that is open"},
+                   {"voxels", Encoding::radiance, "radiance of the voxels after the last bounce"}},
+                  surface_views());
+}
+
+LitPixels::LitPixels(gl::Shaders& shaders, const VoxelGrid& grid, glm::ivec2 size, const LitPixelParams& params)
+    : params_(params),
+      cones_(params.cones),
+      g_buffer_(shaders, size),
+      direct_lighting_(shaders, grid, ShadowMethod(params.shadows.shadows)),
+      diffuse_cones_(shaders, grid, params.diffuse),
+      specular_cones_(shaders),
+      composite_(shaders),
+      pyramid_view_(shaders),
+      g_buffer_view_(shaders)
+{
+}
+
+const gl::Texture& LitPixels::run(App& app, const GpuScene& scene, const LitVoxels& voxels,
+                                  const ShadowMaps& shadow_maps, bool indirect)
+{
+    // What the camera sees.
+    g_buffer_.resize(app.size());
+    app.pass("g-buffer", [&] { g_buffer_.draw(scene, app.camera()); });
+
+    // Light straight from the lights.
+    const gl::Texture* direct = nullptr;
+    app.pass("direct light", [&] {
+        direct = &direct_lighting_.run(g_buffer_, scene, voxels, shadow_maps, params_.cones, params_.shadows, false);
+    });
+
+    // Light by way of other surfaces: many narrow cones for the diffuse lobe, one for the specular one.
+    const gl::Texture *gathered = nullptr, *specular = nullptr;
+    if (indirect) {
+        app.pass("diffuse cones", [&] {
+            gathered = &diffuse_cones_.run(g_buffer_, voxels.grid(), voxels.pyramid(), cones_, params_.cones);
+        });
+        app.pass("specular cones", [&] {
+            specular = &specular_cones_.run(g_buffer_, voxels.grid(), voxels.pyramid(), params_.cones, params_.specular);
+        });
+    }
+
+    // Sum, or one of the intermediate results.
+    const gl::Texture* linear = nullptr;
+    app.pass("composite", [&] {
+        const gl::Buffer camera("camera", std::vector{app.camera()});
+        if (app.shows("voxels"))
+            linear = &pyramid_view_.run(voxels.grid(), voxels.voxelizer().occupancy(), voxels.pyramid(), 0,
+                                        PyramidViewParams{}, false, camera, app.size());
+        else if (linear = g_buffer_view_.run(g_buffer_, app.view().name); linear == nullptr)
+            linear = &composite_.run(g_buffer_, direct, gathered, specular, parts_of_view(app.view().name),
+                                     params_.composite, params_.cones.sky);
+    });
+    return *linear;
+}
+
+std::vector<gl::Resource> LitPixels::resources() const
+{
+    std::vector<gl::Resource> all = g_buffer_.resources();
+    for (const auto& part : {direct_lighting_.resources(), diffuse_cones_.resources(), specular_cones_.resources()})
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace conebook
