@@ -2,12 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-
-#include <nlohmann/json.hpp>
 
 #include "program.hpp"
 #include "soup_pipeline.hpp"
+#include "statistics_file.hpp"
 #include "temporary_folder.hpp"
 #include "voxel_oracle.hpp"
 
@@ -184,13 +182,6 @@ TEST(VoxelView, CubesHaveTheirSize)
     }
 }
 
-double count_of(const nlohmann::json& stats, const std::string& name)
-{
-    for (const auto& count : stats["counts"])
-        if (count["name"] == name) return count["value"];
-    throw std::runtime_error("no count " + name);
-}
-
 TEST(Program04, CountsAndHoles)
 {
     if (program_folder().empty()) GTEST_SKIP() << "CONEBOOK_BIN is not set";
@@ -200,7 +191,7 @@ TEST(Program04, CountsAndHoles)
                                               "--headless --size 64x64 --set voxels=64 " + set + " --output '" +
                                                   (folder / "a.png").string() + "' --stats '" + (folder / "a.json").string() + "'");
         EXPECT_EQ(result.code, 0) << result.output;
-        return nlohmann::json::parse(std::ifstream(folder / "a.json"));
+        return read_statistics(folder / "a.json");
     };
     const auto raster = run(""), compute = run("voxelizer=compute"), plain = run("conservative=off");
     for (const std::string name : {"occupied voxels", "fragments", "most fragments in a voxel"})

@@ -3,13 +3,11 @@
 
 #include <bit>
 #include <cmath>
-#include <fstream>
-
-#include <nlohmann/json.hpp>
 
 #include "05_atomic_averaging/naive_average.hpp"
 #include "program.hpp"
 #include "soup_pipeline.hpp"
+#include "statistics_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace conebook {
@@ -181,13 +179,6 @@ TEST(FaceView, ShowsTheFaceTowardsTheCamera)
     }
 }
 
-double count_of(const nlohmann::json& stats, const std::string& name)
-{
-    for (const auto& count : stats["counts"])
-        if (count["name"] == name) return count["value"];
-    throw std::runtime_error("no count " + name);
-}
-
 TEST(Program05, SumsDoNotChangeFromFrameToFrame)
 {
     if (program_folder().empty()) GTEST_SKIP() << "CONEBOOK_BIN is not set";
@@ -199,7 +190,7 @@ TEST(Program05, SumsDoNotChangeFromFrameToFrame)
                                        " --output '" + (folder / "a.png").string() + "' --stats '" +
                                        (folder / "a.json").string() + "'");
         ASSERT_EQ(result.code, 0) << result.output;
-        const auto stats = nlohmann::json::parse(std::ifstream(folder / "a.json"));
+        const auto stats = read_statistics(folder / "a.json");
         if (averaging == "sums") {
             EXPECT_EQ(count_of(stats, "values that changed between frames"), 0.0);
         } else {

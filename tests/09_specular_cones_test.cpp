@@ -16,7 +16,7 @@ namespace conebook {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr int kTableSize = 32, kTableSamples = 1024;  // as SpecularCones has them
+constexpr int kTableSize = 32, kTableSamples = 2048;  // as SpecularCones has them
 
 // The same two integrals without importance sampling by visible normals: midpoints over microfacet normals, with
 // tan^2 = alpha^2 u / (1 - u), which makes D cos dh = du dphi / 2 pi (Walter et al. 2007, eq. 35), and the visibility
@@ -78,11 +78,11 @@ TEST(DirectionalAlbedo, TheTableHoldsIt)
     for (int row = 1; row + 1 < kTableSize; row += 3)
         for (int column = 1; column + 1 < kTableSize; column += 3) {
             const auto entry = [&](int c, int r) { return glm::dvec2(table[std::size_t(r * kTableSize + c)]); };
-            const double roughness = (row + 0.5) / kTableSize, n_dot_v = (column + 0.5) / kTableSize;
+            const double roughness = double(row) / (kTableSize - 1), n_dot_v = double(column) / (kTableSize - 1);
             const glm::dvec2 exact = directional_albedo(n_dot_v, roughness * roughness, 16384);
             const glm::dvec2 found = entry(column, row);
             // Half way to the next entries, as a linear filter reads it.
-            const double r = (row + 1.0) / kTableSize, c = (column + 1.0) / kTableSize;
+            const double r = (row + 0.5) / (kTableSize - 1), c = (column + 0.5) / (kTableSize - 1);
             const glm::dvec2 exact_between = directional_albedo(c, r * r, 16384);
             const glm::dvec2 between = 0.25 * (entry(column, row) + entry(column + 1, row) + entry(column, row + 1) +
                                                entry(column + 1, row + 1));
@@ -133,8 +133,6 @@ FurnaceError furnace_error(ConePipeline& pipeline, const Camera& camera, const C
     return error;
 }
 
-// Required: 2 %. Measured: within 0.5 % up to roughness 0.2; rougher, 3 to 4 % too dark: the edge of the wide cone touches
-// the surface that it starts from, which is black here.
 TEST(Furnace, MetalsOfAnyRoughnessShowTheirAlbedo)
 {
     constexpr int kSize = 64;
@@ -152,10 +150,10 @@ TEST(Furnace, MetalsOfAnyRoughnessShowTheirAlbedo)
         const FurnaceError closed = furnace_error(in_room, camera, dark, 0.4, double(roughness), kSize);
         const FurnaceError open = furnace_error(under_sky, camera, sky, 0.4, double(roughness), kSize);
         ASSERT_GT(closed.facing_pixels, 200);
-        const double facing = roughness < 0.3f ? 0.02 : 0.05, all = roughness < 0.3f ? 0.02 : 0.06;
         for (const FurnaceError& error : {closed, open}) {
-            EXPECT_LT(std::abs(error.facing), facing) << "roughness " << roughness;
-            EXPECT_LT(std::abs(error.all), all) << "roughness " << roughness;
+            std::printf("roughness %.2f: facing %+.4f, all %+.4f\n", double(roughness), error.facing, error.all);
+            EXPECT_LT(std::abs(error.facing), 0.02) << "roughness " << roughness;
+            EXPECT_LT(std::abs(error.all), 0.02) << "roughness " << roughness;
         }
     }
 }
@@ -212,8 +210,6 @@ TEST(Lambert, ReflectsNothing)
     EXPECT_EQ(spread_of(pipeline.reflected({})).high, 0.0);
 }
 
-// Reported more than required. Measured: signed ratio 0.71 and 0.87, SMAPE 0.08 and 0.11: the voxels hold no specular
-// light, so what a mirror shows of another mirror is missing.
 TEST(Reference, GlossyRoomAgainstThePathTracer)
 {
     const std::string file = TestGl::root() + "/assets/glossy_room.glb";
@@ -236,9 +232,10 @@ TEST(Reference, GlossyRoomAgainstThePathTracer)
         blocks.flip = false;
         const ImageMetrics m = compare_images(read_exr(folder / "o.exr"), reference, blocks);
         RecordProperty("signed_ratio_camera_" + std::to_string(camera), std::to_string(m.signed_ratio));
-        EXPECT_GT(m.signed_ratio, 0.6);
+        std::printf("camera %d: signed ratio %.3f, SMAPE %.3f\n", camera, m.signed_ratio, m.smape);
+        EXPECT_GT(m.signed_ratio, 0.9);
         EXPECT_LT(m.signed_ratio, 1.1);
-        EXPECT_LT(m.smape, 0.15);
+        EXPECT_LT(m.smape, 0.1);
     }
 }
 

@@ -1,7 +1,6 @@
 // Several bounces against what is known exactly: the geometric series of the white furnace, the path tracer, the
 // conservation of energy, and the identity of sums and runs.
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -18,12 +17,6 @@
 
 namespace conebook {
 namespace {
-
-std::filesystem::path asset(const std::string& name)
-{
-    const char* root = std::getenv("CONEBOOK_ROOT");
-    return std::filesystem::path(root != nullptr ? root : ".") / "assets" / (name + ".glb");
-}
 
 // The picture as scene-linear radiance. `set`: NAME=VALUE ...; everything that a tolerance here rests on is in it.
 ImageF render(const std::filesystem::path& scene, const std::string& set, const std::string& view = "final",

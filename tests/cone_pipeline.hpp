@@ -8,68 +8,41 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <memory>
-#include <stdexcept>
-#include <string>
 
-#include "08_diffuse_cones/diffuse_cones.hpp"
 #include "09_specular_cones/specular_cones.hpp"
-#include "app/context.hpp"
-#include "gl/debug_log.hpp"
 #include "image/image.hpp"
+#include "lit_scene.hpp"
 #include "scene_builder.hpp"
-#include "test_gl.hpp"
 
 namespace conebook {
 
 class ConePipeline {
 public:
     ConePipeline(const Scene& scene, const Camera& camera, glm::ivec2 size, int voxels)
-        : shaders_(test_gl().shaders),
-          scene_(scene),
-          shadow_maps_(shaders_, scene_, {}),
-          grid_(scene_.bounds(), {voxels}),
-          voxelizer_(shaders_, grid_, {}),
-          faces_(shaders_, grid_, voxelizer_),
-          shading_(shaders_, {}),
-          pyramid_(shaders_, grid_, {}),
-          g_buffer_(shaders_, size),
-          diffuse_(shaders_, grid_, {}),
-          specular_(shaders_)
+        : lit_(scene, voxels),
+          g_buffer_(test_gl().shaders, size),
+          diffuse_(test_gl().shaders, lit_.grid, {}),
+          specular_(test_gl().shaders)
     {
-        shadow_maps_.draw(scene_);
-        voxelizer_.run(scene_, grid_);
-        faces_.run(scene_, grid_, voxelizer_);
-        pyramid_.clear();
-        shading_.run(scene_, grid_, voxelizer_, faces_, shadow_maps_);
-        pyramid_.run(grid_, faces_, shading_.radiance());
         look(camera);
     }
 
-    void look(const Camera& camera) { g_buffer_.draw(scene_, camera_data(camera, g_buffer_.size())); }
+    void look(const Camera& camera) { g_buffer_.draw(lit_.scene, camera_data(camera, g_buffer_.size())); }
 
     // rgb: E / pi, the cosine-weighted mean radiance over the hemisphere, W/(sr m^2); a: ambient.
     ImageF gathered(const ConeParams& params)
     {
-        return read_picture(diffuse_.run(g_buffer_, grid_, pyramid_, DiffuseConeUniforms(params), params));
+        return read_picture(diffuse_.run(g_buffer_, lit_.grid, lit_.pyramid, DiffuseConeUniforms(params), params));
     }
     // rgb: radiance towards the camera, W/(sr m^2).
     ImageF reflected(const ConeParams& params, const SpecularConeParams& specular_params = {})
     {
-        return read_picture(specular_.run(g_buffer_, grid_, pyramid_, params, specular_params));
+        return read_picture(specular_.run(g_buffer_, lit_.grid, lit_.pyramid, params, specular_params));
     }
-    double voxel_size_m() const { return double(grid_.voxel_size_m()); }
+    double voxel_size_m() const { return double(lit_.grid.voxel_size_m()); }
 
 private:
-    gl::Shaders& shaders_;
-    GpuScene scene_;
-    ShadowMaps shadow_maps_;
-    VoxelGrid grid_;
-    ConservativeVoxelizer voxelizer_;
-    VoxelFaces faces_;
-    VoxelShading shading_;
-    LightPyramid pyramid_;
+    LitScene lit_;
     GBuffer g_buffer_;
     DiffuseCones diffuse_;
     SpecularCones specular_;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "10_soft_shadows/soft_shadows.hpp"
-#include "11_emissives/emissive_light.hpp"
+#include "11_emissives/emitters.hpp"
 #include "cone_pipeline.hpp"
 
 namespace conebook {
@@ -13,29 +13,23 @@ namespace conebook {
 class LightPipeline {
 public:
     LightPipeline(const Scene& scene, const Camera& camera, glm::ivec2 size, int voxels)
-        : scene_((test_gl(), scene)),  // the context comes first
-          shadow_maps_(test_gl().shaders, scene_, {}),
-          grid_(scene_.bounds(), {voxels}),
-          voxelizer_(test_gl().shaders, grid_, {}),
-          faces_(test_gl().shaders, grid_, voxelizer_),
-          shading_(test_gl().shaders, {}),
-          pyramid_(test_gl().shaders, grid_, {}),
-          emissive_(test_gl().shaders),
+        // The voxels hold what surfaces reflect, the emitters the rest.
+        : lit_(scene, voxels),
+          emitters_(test_gl().shaders, scene, lit_.grid, lit_.voxelizer, {}),
           g_buffer_(test_gl().shaders, size)
     {
-        shadow_maps_.draw(scene_);
-        voxelizer_.run(scene_, grid_);
-        faces_.run(scene_, grid_, voxelizer_);
-        pyramid_.clear();
-        shading_.run(scene_, grid_, voxelizer_, faces_, shadow_maps_);
-        pyramid_.run(grid_, faces_, shading_.radiance());
+        emitters_.run(lit_.grid, lit_.faces, lit_.shading);
+        lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), emitters_.part_of_voxels());
         look(camera);
     }
 
-    void look(const Camera& camera) { g_buffer_.draw(scene_, camera_data(camera, g_buffer_.size())); }
+    void look(const Camera& camera) { g_buffer_.draw(lit_.scene, camera_data(camera, g_buffer_.size())); }
 
     // Only what the faces emit by themselves stays in the pyramids.
-    void keep_emission_alone() { pyramid_.run(grid_, faces_, emissive_.run(faces_)); }
+    void keep_emission_alone()
+    {
+        lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), LightPart::none);
+    }
 
     // Mean visible share of the lights, 0..1, in all channels; alpha 1 where there is a surface.
     ImageF visibility(ShadowMethod method, const SoftShadowParams& params, const ConeParams& cone_params = {})
@@ -46,29 +40,24 @@ public:
     ImageF direct(ShadowMethod method, const SoftShadowParams& params, const ConeParams& cone_params = {},
                   bool show_visibility = false)
     {
-        SoftShadowLighting lighting(test_gl().shaders, grid_, method);
-        return read_picture(lighting.run(g_buffer_, scene_, grid_, faces_, shading_, pyramid_, shadow_maps_,
-                                         cone_params, params, show_visibility));
+        SoftShadowLighting lighting(test_gl().shaders, lit_.grid, method);
+        return read_picture(lighting.run(g_buffer_, lit_.scene, lit_.grid, lit_.faces, lit_.shading, lit_.pyramid,
+                                         lit_.shadow_maps, cone_params, params, show_visibility));
     }
     // rgb: E / pi, the cosine-weighted mean radiance over the hemisphere, W/(sr m^2); a: ambient.
     ImageF gathered(const ConeParams& params)
     {
-        DiffuseCones cones(test_gl().shaders, grid_, {});
-        return read_picture(cones.run(g_buffer_, grid_, pyramid_, DiffuseConeUniforms(params), params));
+        DiffuseCones cones(test_gl().shaders, lit_.grid, {}, emitters_.are_apart());
+        return read_picture(
+            emitters_.gather(cones, g_buffer_, lit_.grid, lit_.pyramid, DiffuseConeUniforms(params), params));
     }
 
-    const VoxelGrid& grid() const { return grid_; }
-    const VoxelFaces& faces() const { return faces_; }
+    const VoxelGrid& grid() const { return lit_.grid; }
+    const VoxelFaces& faces() const { return lit_.faces; }
 
 private:
-    GpuScene scene_;
-    ShadowMaps shadow_maps_;
-    VoxelGrid grid_;
-    ConservativeVoxelizer voxelizer_;
-    VoxelFaces faces_;
-    VoxelShading shading_;
-    LightPyramid pyramid_;
-    EmissiveLight emissive_;
+    LitScene lit_;
+    Emitters emitters_;
     GBuffer g_buffer_;
 };
 

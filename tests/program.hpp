@@ -1,10 +1,13 @@
-// Runs a program of the book and keeps what it said. Header only.
+// Runs a program of the book and keeps what it said; which programs and scenes there are. Header only.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include <sys/wait.h>
 
@@ -20,6 +23,27 @@ inline std::string program_folder()
 {
     const char* folder = std::getenv("CONEBOOK_BIN");
     return folder ? folder : "";
+}
+
+// The repository, or the working directory when $CONEBOOK_ROOT is not set.
+inline std::filesystem::path repository_folder()
+{
+    const char* folder = std::getenv("CONEBOOK_ROOT");
+    return folder ? folder : ".";
+}
+
+// assets/NAME.glb
+inline std::filesystem::path asset(const std::string& name) { return repository_folder() / "assets" / (name + ".glb"); }
+
+// Names of the chapters' programs, in order.
+inline std::vector<std::string> chapters()
+{
+    std::vector<std::string> names;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(repository_folder() / "chapters", error))
+        if (std::filesystem::exists(entry.path() / "main.cpp")) names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 // `arguments` as in a shell.

@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "05_atomic_averaging/voxel_faces.hpp"
 #include "scene_builder.hpp"
-#include "test_gl.hpp"
+#include "voxel_scene.hpp"
 
 namespace conebook {
 
@@ -70,31 +69,24 @@ public:
     }
     SoupPipeline(const Scene& scene, const Bounds& bounds, int voxels, Voxelizer voxelizer = Voxelizer::raster,
                  bool conservative = true)
-        : scene_((test_gl(), scene)),  // the context comes first
-          grid_(bounds, {voxels}),
-          voxelizer_(test_gl().shaders, grid_, {int(voxelizer), conservative, false}),
-          faces_(test_gl().shaders, grid_, voxelizer_)
+        : voxels_(scene, bounds, voxels, {int(voxelizer), conservative, false})
     {
     }
-    void voxelize() { voxelizer_.run(scene_, grid_); }
-    void average()
-    {
-        voxelize();
-        faces_.run(scene_, grid_, voxelizer_);
-    }
+    void voxelize() { voxels_.voxelize(); }
+    void average() { voxels_.average(); }
 
     // Mask of faces of every voxel, x fastest.
-    std::vector<GLuint> occupancy() const { return gl::read_uints(voxelizer_.occupancy()); }
+    std::vector<GLuint> occupancy() const { return gl::read_uints(voxels_.voxelizer.occupancy()); }
     std::vector<shared::VoxelFace> faces() const
     {
-        auto all = faces_.faces().read<shared::VoxelFace>();
-        all.resize(faces_.face_count());
+        auto all = voxels_.faces.faces().read<shared::VoxelFace>();
+        all.resize(voxels_.faces.face_count());
         return all;
     }
     std::vector<GLuint> face_list() const
     {
-        auto all = faces_.face_list().read<GLuint>();
-        all.resize(faces_.face_count());
+        auto all = voxels_.faces.face_list().read<GLuint>();
+        all.resize(voxels_.faces.face_count());
         return all;
     }
     // By (voxel, face direction).
@@ -110,7 +102,7 @@ public:
     }
     shared::VoxelStatistics statistics() const
     {
-        return voxelizer_.statistics_buffer().read_at<shared::VoxelStatistics>(0);
+        return voxels_.voxelizer.statistics_buffer().read_at<shared::VoxelStatistics>(0);
     }
     double total_area_voxels() const
     {
@@ -119,16 +111,13 @@ public:
         return sum;
     }
 
-    const GpuScene& scene() const { return scene_; }
-    const VoxelGrid& grid() const { return grid_; }
-    ConservativeVoxelizer& voxelizer() { return voxelizer_; }
-    VoxelFaces& voxel_faces() { return faces_; }
+    const GpuScene& scene() const { return voxels_.scene; }
+    const VoxelGrid& grid() const { return voxels_.grid; }
+    ConservativeVoxelizer& voxelizer() { return voxels_.voxelizer; }
+    VoxelFaces& voxel_faces() { return voxels_.faces; }
 
 private:
-    GpuScene scene_;
-    VoxelGrid grid_;
-    ConservativeVoxelizer voxelizer_;
-    VoxelFaces faces_;
+    VoxelScene voxels_;
 };
 
 }  // namespace conebook

@@ -5,9 +5,8 @@
 //     const PyramidLevel level = pipeline.level(2);             // what the pyramids hold
 #pragma once
 
-#include "07_anisotropic_mips/light_pyramid.hpp"
+#include "lit_scene.hpp"
 #include "scene_builder.hpp"
-#include "test_gl.hpp"
 
 namespace conebook {
 
@@ -47,29 +46,17 @@ class VoxelPipeline {
 public:
     VoxelPipeline(const Scene& scene, int voxels, const VoxelShadingParams& shading = {},
                   const PyramidParams& pyramid = {})
-        : scene_((test_gl(), scene)),  // the context comes first
-          shadow_maps_(test_gl().shaders, scene_, {}),
-          grid_(scene_.bounds(), {voxels}),
-          voxelizer_(test_gl().shaders, grid_, {}),
-          faces_(test_gl().shaders, grid_, voxelizer_),
-          shading_(test_gl().shaders, shading),
-          pyramid_(test_gl().shaders, grid_, pyramid)
+        : lit_(scene, voxels, shading, pyramid)
     {
-        shadow_maps_.draw(scene_);
-        voxelizer_.run(scene_, grid_);
-        faces_.run(scene_, grid_, voxelizer_);
-        pyramid_.clear();
-        shading_.run(scene_, grid_, voxelizer_, faces_, shadow_maps_);
-        pyramid_.run(grid_, faces_, shading_.radiance());
     }
 
     std::vector<LitFace> faces() const
     {
-        const auto entries = faces_.face_list().read<GLuint>();
-        const auto means = faces_.faces().read<shared::VoxelFace>();
-        const auto radiance = shading_.radiance().read<glm::vec4>();
+        const auto entries = lit_.faces.face_list().read<GLuint>();
+        const auto means = lit_.faces.faces().read<shared::VoxelFace>();
+        const auto radiance = lit_.shading.radiance().read<glm::vec4>();
         std::vector<LitFace> all;
-        for (std::size_t i = 0; i < faces_.face_count(); ++i) {
+        for (std::size_t i = 0; i < lit_.faces.face_count(); ++i) {
             const GLuint e = entries[i];
             all.push_back({{int(e & 511u), int((e >> 9) & 511u), int((e >> 18) & 511u)},
                            int(e >> 27),
@@ -82,28 +69,22 @@ public:
 
     PyramidLevel level(int level) const
     {
-        const std::vector<float> values = gl::read_floats(pyramid_.light(), level, 4);
-        PyramidLevel result{grid_.size() >> level, {}};
+        const std::vector<float> values = gl::read_floats(lit_.pyramid.light(), level, 4);
+        PyramidLevel result{lit_.grid.size() >> level, {}};
         for (std::size_t i = 0; i < values.size(); i += 4)
             result.texels.emplace_back(values[i], values[i + 1], values[i + 2], values[i + 3]);
         return result;
     }
 
-    const shared::GridData& grid() const { return grid_.data(); }
-    int levels() const { return grid_.levels(); }
+    const shared::GridData& grid() const { return lit_.grid.data(); }
+    int levels() const { return lit_.grid.levels(); }
     glm::dvec3 scene_from_grid(const glm::dvec3& p) const
     {
-        return p * double(grid_.voxel_size_m()) + glm::dvec3(grid_.data().origin);
+        return p * double(lit_.grid.voxel_size_m()) + glm::dvec3(lit_.grid.data().origin);
     }
 
 private:
-    GpuScene scene_;
-    ShadowMaps shadow_maps_;
-    VoxelGrid grid_;
-    ConservativeVoxelizer voxelizer_;
-    VoxelFaces faces_;
-    VoxelShading shading_;
-    LightPyramid pyramid_;
+    LitScene lit_;
 };
 
 }  // namespace conebook

@@ -10,6 +10,7 @@
 #include "01_first_light/forward_pass.hpp"
 #include "01_first_light/tone_map.hpp"
 #include "app/app.hpp"
+#include "app/needs.hpp"
 
 using namespace conebook;
 
@@ -80,6 +81,8 @@ try {
         app.statistics().add_resources(part);
     app.statistics().set_counts({{"triangles", double(scene.triangle_count()), ""},
                                  {"lights", double(scene.lights().size()), ""}});
+    app.statistics().add_needs(surface_needs(app.scene()));
+    app.statistics().add_needs({light_need(app.scene())});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

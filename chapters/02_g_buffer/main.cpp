@@ -11,6 +11,7 @@
 #include "02_g_buffer/g_buffer.hpp"
 #include "02_g_buffer/g_buffer_view.hpp"
 #include "app/app.hpp"
+#include "app/needs.hpp"
 
 using namespace conebook;
 
@@ -83,6 +84,8 @@ try {
         app.statistics().add_resources(part);
     app.statistics().set_counts({{"triangles", double(scene.triangle_count()), ""},
                                  {"lights", double(scene.lights().size()), ""}});
+    app.statistics().add_needs(surface_needs(app.scene()));
+    app.statistics().add_needs({light_need(app.scene())});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

@@ -10,6 +10,7 @@
 #include "03_shadow_map/layer_view.hpp"
 #include "03_shadow_map/shadow_maps.hpp"
 #include "app/app.hpp"
+#include "app/needs.hpp"
 
 using namespace conebook;
 
@@ -67,6 +68,9 @@ try {
     app.statistics().set_counts({{"lights", double(scene.lights().size()), ""},
                                  {"shadow maps", double(shadow_maps.layers()), ""},
                                  {"shadow map side", double(shadow_maps.size()), "texels"}});
+    for (const auto& needs : {surface_needs(app.scene()), shadow_maps.needs(scene)})
+        app.statistics().add_needs(needs);
+    app.statistics().add_needs({light_need(app.scene())});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

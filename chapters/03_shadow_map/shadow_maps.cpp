@@ -110,7 +110,7 @@ ShadowMaps::ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const Shadow
     std::size_t layer_count = 0;
     for (const Light& light : scene.lights())
         layer_count += shadow_matrices(light, scene.bounds(), params.shadow_map_size).size();
-    const int size = fitting_size(params.shadow_map_size, layer_count);
+    const int size = layer_count > 0 ? fitting_size(params.shadow_map_size, layer_count) : 1;  // a texel to bind
 
     std::vector<shared::ShadowLight> lights;
     for (const Light& light : scene.lights()) {
@@ -142,6 +142,7 @@ void ShadowMaps::draw(const GpuScene& scene)
     }
     glDisable(GL_DEPTH_TEST);
     // end snippet
+    drawn_ = true;
 }
 
 void ShadowMaps::bind(const gl::Program& program) const
@@ -151,6 +152,21 @@ void ShadowMaps::bind(const gl::Program& program) const
     depth_.bind(GLuint(shared::kShadowMapUnit));
     program.set("shadow_bias_texels", params_.shadow_bias);
     program.set("shadow_receiver_plane", params_.shadow_receiver_plane ? 1 : 0);
+}
+
+std::vector<Need> ShadowMaps::needs(const GpuScene& scene) const
+{
+    if (scene.lights().empty()) return {{"shadow maps", false, "the scene has no lights but surfaces that shine"}};
+    constexpr const char* kTypes[] = {"directional light", "point light", "spot light"};
+    std::vector<Need> needs;
+    for (const Light& light : scene.lights()) {
+        const std::size_t maps = shadow_matrices(light, scene.bounds(), size()).size();
+        const std::string of = " of light " + std::to_string(needs.size()), type = kTypes[int(light.type)];
+        const std::string how_many = maps == 1 ? "one map" : std::to_string(maps) + " maps";
+        const std::string why = maps == 0 ? " without intensity" : drawn_ ? ": " + how_many : ": no pass asks its maps";
+        needs.push_back({"shadow map" + of, drawn_ && maps > 0, type + why});
+    }
+    return needs;
 }
 
 }  // namespace conebook

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/parameters.hpp"
+#include "app/statistics.hpp"
 #include "common/shadow_structs.glsl"
 #include "gl/gpu_scene.hpp"
 
@@ -33,9 +34,12 @@ public:
     const glm::mat4& clip_from_scene(int layer) const { return layers_[std::size_t(layer)].clip_from_scene; }
     const gl::Texture& depth() const { return depth_; }  // DEPTH32F array, 1 near .. 0 far
     std::vector<gl::Resource> resources() const { return {depth_.resource()}; }
+    // One entry a light: the maps that it has, or why it has none.
+    std::vector<Need> needs(const GpuScene& scene) const;
 
 private:
     ShadowMapParams params_;
+    bool drawn_ = false;
     gl::Program program_;
     std::vector<shared::ShadowLayer> layers_;
     gl::Buffer layer_buffer_, light_buffer_;

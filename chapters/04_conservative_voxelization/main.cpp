@@ -71,6 +71,7 @@ try {
                                  {"triangles without area", double(counted.degenerate), ""}});
     for (const auto& part : {scene.resources(), voxelizer.resources()})
         app.statistics().add_resources(part);
+    app.statistics().add_needs({{"materials and lights", false, "occupancy is a question of triangles alone"}});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

@@ -95,6 +95,7 @@ try {
     app.statistics().set_counts(counts);
     for (const auto& part : {scene.resources(), voxelizer.resources(), faces.resources()})
         app.statistics().add_resources(part);
+    app.statistics().add_needs(voxel_material_needs(scene));
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

@@ -30,6 +30,14 @@ gl::Defines column_defines(const GpuScene& scene)
     return {{"CONSERVATIVE", "1"}, {"ATTRIBUTES", "1"}, {"TEXTURES", scene.has_textures() ? "1" : "0"}};
 }
 
+std::vector<Need> voxel_material_needs(const GpuScene& scene)
+{
+    const bool textures = scene.has_textures(), emission = scene.has_emission();
+    return {{"textures in voxels", textures, textures ? "materials have them" : "no material has any"},
+            {"normal maps in voxels", false, "their details are smaller than voxels"},
+            {"emission in voxels", emission, emission ? "materials shine" : "no material shines: no sums for it"}};
+}
+
 VoxelFaces::VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
     : shaders_(&shaders),
       count_blocks_(shaders.load({"05_atomic_averaging/count_blocks.comp"})),

@@ -4,11 +4,15 @@
 #include <map>
 
 #include "04_conservative_voxelization/conservative_voxelizer.hpp"
+#include "app/statistics.hpp"
 
 namespace conebook {
 
 // Defines of programs that run over columns and need the scene's materials.
 gl::Defines column_defines(const GpuScene& scene);
+
+// What the programs that average are made without where the scene has none of it.
+std::vector<Need> voxel_material_needs(const GpuScene& scene);
 
 // Lists of what is occupied. Passes over voxels work on these instead of on the whole grid.
 class VoxelFaces {

@@ -9,6 +9,7 @@
 #include "01_first_light/tone_map.hpp"
 #include "06_voxel_shading/voxel_shading.hpp"
 #include "app/app.hpp"
+#include "app/needs.hpp"
 
 using namespace conebook;
 
@@ -43,8 +44,9 @@ try {
 
     while (app.next_frame()) {
         // snippet: frame
-        // What the lights see.
-        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+        // What the lights see, unless rays through the voxels are to tell.
+        if (shading_params.voxel_shadows == int(VoxelShadows::map))
+            app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
 
         // Triangles -> occupied voxels -> list of faces with their mean material.
         app.pass("voxelize", [&] { voxelizer.run(scene, grid); });
@@ -73,6 +75,9 @@ try {
                                  {"occupied faces", double(faces.face_count()), ""}});
     for (const auto& part : {scene.resources(), shadow_maps.resources(), voxelizer.resources(), faces.resources(), shading.resources()})
         app.statistics().add_resources(part);
+    for (const auto& needs : {voxel_material_needs(scene), shadow_maps.needs(scene)})
+        app.statistics().add_needs(needs);
+    app.statistics().add_needs({light_need(app.scene())});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

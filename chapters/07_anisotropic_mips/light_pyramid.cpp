@@ -8,7 +8,9 @@ namespace conebook {
 
 void add_parameters(ParameterTable& table, PyramidParams& params)
 {
-    table.add("isotropic", params.isotropic, "finest level: one value for all six directions, for comparison");
+    table.add("directions", params.directions, {"per_face", "anisotropic", "isotropic"},
+              "which levels tell the six directions apart: all, all but the finest, none");
+    table.add("format", params.format, {"rgba16f", "rgba8", "r11g11b10f"}, "of the pyramids' texels");
 }
 
 void add_parameters(ParameterTable& table, PyramidViewParams& params)
@@ -17,27 +19,79 @@ void add_parameters(ParameterTable& table, PyramidViewParams& params)
               "direction that pyramid views show");
 }
 
-LightPyramid::LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params)
-    : base_(shaders.load({"07_anisotropic_mips/light_base.comp"}, {{"ISOTROPIC", params.isotropic ? "1" : "0"}})),
-      next_level_(shaders.load({"07_anisotropic_mips/light_level.comp"})),
-      light_(gl::texture_3d("light pyramid", GL_RGBA16F, grid.size() * glm::ivec3(shared::kFaceCount, 1, 1),
-                            grid.levels()))
+namespace {
+
+const gl::Defines kSplitCoverage = {{"SPLIT_COVERAGE", "1"}};
+
+gl::Defines storing_defines(const PyramidParams& params)
 {
+    gl::Defines defines{{"DIRECTIONS", std::to_string(params.directions)}, {"FORMAT", std::to_string(params.format)}};
+    if (LightFormat(params.format) == LightFormat::r11g11b10f)
+        defines.insert(kSplitCoverage.begin(), kSplitCoverage.end());
+    return defines;
+}
+
+}  // namespace
+
+LightPyramid::LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params)
+    : format_(LightFormat(params.format)),
+      base_(shaders.load({"07_anisotropic_mips/light_base.comp"}, storing_defines(params))),
+      next_level_(shaders.load({"07_anisotropic_mips/light_level.comp"}, storing_defines(params))),
+      scale_("light scale", std::vector{glm::vec4(1.0f)})
+{
+    constexpr GLenum kFormats[] = {GL_RGBA16F, GL_RGBA8, GL_R11F_G11F_B10F};
+    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
+    light_ = gl::texture_3d("light pyramid", kFormats[params.format], size, grid.levels());
     light_.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
+    if (format_ == LightFormat::rgba8) largest_radiance_ = shaders.load({"07_anisotropic_mips/largest_radiance.comp"});
+    if (format_ == LightFormat::r11g11b10f) {
+        coverage_ = gl::texture_3d("coverage pyramid", GL_R8, size, grid.levels());
+        coverage_.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
+    }
     clear();
 }
 
-void LightPyramid::bind() const { light_.bind(GLuint(shared::kLightAtlasUnit)); }
+void LightPyramid::clear() const
+{
+    light_.clear();
+    if (coverage_) coverage_.clear();
+}
 
-void LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& face_radiance)
+void LightPyramid::bind() const
+{
+    light_.bind(GLuint(shared::kLightAtlasUnit));
+    if (coverage_) coverage_.bind(GLuint(shared::kCoverageAtlasUnit));
+    scale_.bind(GL_UNIFORM_BUFFER, 4);
+}
+
+void LightPyramid::bind_level(int level) const
+{
+    light_.bind_image(0, level, GL_WRITE_ONLY);
+    if (coverage_) coverage_.bind_image(1, level, GL_WRITE_ONLY);
+}
+
+void LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& face_radiance, LightPart part)
 {
     constexpr GLbitfield kWrittenImage = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
-    // Finest level: occupied voxels only, the others stay empty.
     grid.bind();
     faces.bind();
     bind();
     face_radiance.bind(GL_SHADER_STORAGE_BUFFER, 11);
-    light_.bind_image(0, 0, GL_WRITE_ONLY);
+    constexpr glm::vec2 kWeights[] = {{1, 0}, {1, -1}, {0, 1}, {0, 0}};  // of radiance and emission
+    if (format_ == LightFormat::rgba8) {
+        constexpr glm::vec4 kLeast(1e-6f);  // so that what is black is not divided by 0
+        scale_.write(0, sizeof kLeast, &kLeast);
+        largest_radiance_.set("part", kWeights[int(part)]);
+        scale_.bind(GL_SHADER_STORAGE_BUFFER, 13);
+        largest_radiance_.use();
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
+        glDispatchComputeIndirect(0);
+        glMemoryBarrier(GL_UNIFORM_BARRIER_BIT);
+    }
+
+    // Finest level: occupied voxels only, the others stay empty.
+    bind_level(0);
+    base_.set("part", kWeights[int(part)]);
     base_.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.voxel_groups().id());
     glDispatchComputeIndirect(0);
@@ -46,7 +100,7 @@ void LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
     // Each level from the one below.
     next_level_.use();
     for (int level = 1; level < grid.levels(); ++level) {
-        light_.bind_image(0, level, GL_WRITE_ONLY);
+        bind_level(level);
         next_level_.set("level", level);
         glm::ivec3 size = grid.size() >> level;
         size.x *= shared::kFaceCount;
@@ -56,24 +110,44 @@ void LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
     }
 }
 
+PyramidProgram::PyramidProgram(gl::Shaders& shaders, std::vector<std::string> files, gl::Defines defines)
+    : shaders_(&shaders), files_(std::move(files)), defines_(std::move(defines)), whole_(shaders.load(files_, defines_))
+{
+}
+
+const gl::Program& PyramidProgram::reading(const LightPyramid& pyramid)
+{
+    if (pyramid.format() != LightFormat::r11g11b10f) return whole_;
+    if (split_.id() == 0) {
+        gl::Defines defines = defines_;
+        defines.insert(kSplitCoverage.begin(), kSplitCoverage.end());
+        split_ = shaders_->load(files_, defines);
+    }
+    return split_;
+}
+
 PyramidViewPass::PyramidViewPass(gl::Shaders& shaders)
-    : program_(shaders.load({"common/fullscreen.vert", "07_anisotropic_mips/pyramid_view.frag"}))
+    : program_(shaders, {"common/fullscreen.vert", "07_anisotropic_mips/pyramid_view.frag"})
 {
 }
 
 const gl::Texture& PyramidViewPass::run(const VoxelGrid& grid, const gl::Texture& occupancy,
                                         const LightPyramid& pyramid, int level, const PyramidViewParams& params,
-                                        bool show_coverage, const gl::Buffer& camera, glm::ivec2 size)
+                                        bool show_coverage, const gl::Buffer& camera, glm::ivec2 size,
+                                        const LightPyramid* emission)
 {
     gl::fit_to_pixels(color_, framebuffer_, "pyramid view", GL_RGBA16F, size);
     grid.bind();
     camera.bind(GL_UNIFORM_BUFFER, 0);
     occupancy.bind(shared::kOccupancyUnit);
     pyramid.bind();
-    program_.set("level", std::min(level, grid.levels() - 1));
-    program_.set("direction", params.direction);
-    program_.set("show_coverage", show_coverage);
-    gl::draw_pixels(program_, framebuffer_, no_vertices_, size);
+    const gl::Program& program = program_.reading(pyramid);
+    program.set("level", std::min(level, grid.levels() - 1));
+    program.set("direction", params.direction);
+    program.set("show_coverage", show_coverage);
+    program.set("with_emission", emission != nullptr);
+    if (emission != nullptr) emission->bind_as_emission();
+    gl::draw_pixels(program, framebuffer_, no_vertices_, size);
     return color_;
 }
 

@@ -5,9 +5,21 @@
 
 namespace conebook {
 
+// per_face: six directions from the finest level on. For comparison, anisotropic: the six of the finest level hold
+// the same, so that a wall covers along itself too (Crassin 2011); isotropic: those of all levels do, each the mean of
+// eight.
+enum class Directions : int { per_face = 0, anisotropic = 1, isotropic = 2 };
+
+// rgba16f: 8 bytes a texel. rgba8: 4, radiance as a share of the largest that any face sends, so that nothing is cut
+// off and what is darker than 1/510 of it is lost. r11g11b10f: 5, 6 or 5 bits of precision for radiance, 8 for coverage.
+enum class LightFormat : int { rgba16f = 0, rgba8 = 1, r11g11b10f = 2 };
+
+// What of the light that leaves the faces a pyramid holds; their coverage it always does.
+enum class LightPart { all, reflected, emitted, none };
+
 struct PyramidParams {
-    // The six directions of the finest level hold the same, for comparison: a wall then covers along itself too.
-    bool isotropic = false;
+    int directions = int(Directions::per_face);
+    int format = int(LightFormat::rgba16f);
 };
 void add_parameters(ParameterTable& table, PyramidParams& params);
 
@@ -16,19 +28,42 @@ public:
     LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params);
 
     // Empty all levels: needed when other voxels become occupied.
-    void clear() const { light_.clear(); }
-    // All levels from `face_radiance` (vec4 a face: rgb in W/(sr m^2)).
-    void run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& face_radiance);
+    void clear() const;
+    // All levels from `face_radiance` (vec4 a face: rgb in W/(sr m^2)), emission included.
+    void run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& face_radiance,
+             LightPart part = LightPart::all);
 
-    // kLightAtlasUnit, for shaders that include common/pyramid.glsl.
+    // kLightAtlasUnit, kCoverageAtlasUnit and uniform block 4, for shaders that include common/pyramid.glsl.
     void bind() const;
-    // rgba16f, six times the grid's width (face * size.x + x), all levels of the grid; see common/pyramid.glsl.
+    // kEmissionAtlasUnit, beside another one that is bound as above; format rgba16f.
+    void bind_as_emission() const { light_.bind(GLuint(shared::kEmissionAtlasUnit)); }
+    LightFormat format() const { return format_; }
+    // Six times the grid's width (face * size.x + x), all levels of the grid; see common/pyramid.glsl.
     const gl::Texture& light() const { return light_; }
-    std::vector<gl::Resource> resources() const { return {light_.resource()}; }
+    // r8 of the same size, of format r11g11b10f alone.
+    const gl::Texture& coverage() const { return coverage_; }
+    std::vector<gl::Resource> resources() const { return {light_.resource(), coverage_.resource()}; }
 
 private:
-    gl::Program base_, next_level_;
-    gl::Texture light_;
+    void bind_level(int level) const;
+    LightFormat format_;
+    gl::Program largest_radiance_, base_, next_level_;
+    gl::Texture light_, coverage_;
+    gl::Buffer scale_;
+};
+
+// A program that reads the pyramids, compiled for the format that they are kept in.
+class PyramidProgram {
+public:
+    // `shaders` must outlive this. Throws as Shaders::load does.
+    PyramidProgram(gl::Shaders& shaders, std::vector<std::string> files, gl::Defines defines = {});
+    const gl::Program& reading(const LightPyramid& pyramid);
+
+private:
+    gl::Shaders* shaders_;
+    std::vector<std::string> files_;
+    gl::Defines defines_;
+    gl::Program whole_, split_;  // split: made when the first pyramid comes that has its coverage apart
 };
 
 struct PyramidViewParams {
@@ -39,13 +74,13 @@ void add_parameters(ParameterTable& table, PyramidViewParams& params);
 class PyramidViewPass {
 public:
     explicit PyramidViewPass(gl::Shaders& shaders);
-    // RGBA16F, alpha 0 where no voxel is met. `show_coverage`: A as grey instead of radiance.
+    // RGBA16F, alpha 0 where no voxel is met. `show_coverage`: A as grey instead of radiance. `emission` is added.
     const gl::Texture& run(const VoxelGrid& grid, const gl::Texture& occupancy, const LightPyramid& pyramid, int level,
                            const PyramidViewParams& params, bool show_coverage, const gl::Buffer& camera,
-                           glm::ivec2 size);
+                           glm::ivec2 size, const LightPyramid* emission = nullptr);
 
 private:
-    gl::Program program_;
+    PyramidProgram program_;
     gl::VertexArray no_vertices_;
     gl::Texture color_;
     gl::Framebuffer framebuffer_;

@@ -21,9 +21,10 @@ LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxel
 {
 }
 
-void LitVoxels::run(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps)
+void LitVoxels::run(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps, LightPart part)
 {
-    if (app.frame() == 0 || every_frame_) {
+    are_new_ = app.frame() == 0 || every_frame_;
+    if (are_new_) {
         // Triangles -> occupied voxels -> mean material of their faces.
         app.pass("voxelize", [&] { voxelizer_.run(scene, grid_); });
         app.pass("average", [&] { faces_.run(scene, grid_, voxelizer_); });
@@ -31,7 +32,7 @@ void LitVoxels::run(App& app, const GpuScene& scene, const ShadowMaps& shadow_ma
     }
     // Material and lights -> radiance of the faces -> radiance of all levels.
     app.pass("voxel shading", [&] { shading_.run(scene, grid_, voxelizer_, faces_, shadow_maps); });
-    app.pass("light pyramid", [&] { pyramid_.run(grid_, faces_, shading_.radiance()); });
+    app.pass("light pyramid", [&] { pyramid_.run(grid_, faces_, shading_.radiance(), part); });
 }
 
 std::vector<gl::Resource> LitVoxels::resources() const

@@ -19,7 +19,9 @@ void add_parameters(ParameterTable& table, LitVoxelParams& params);
 class LitVoxels {
 public:
     LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params);
-    void run(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps);
+    // The pyramid gets that part of the faces' light.
+    void run(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps, LightPart part = LightPart::all);
+    bool are_new() const { return are_new_; }  // the last run has voxelized
 
     const VoxelGrid& grid() const { return grid_; }
     const ConservativeVoxelizer& voxelizer() const { return voxelizer_; }
@@ -31,7 +33,7 @@ public:
     std::vector<Count> counts() const;
 
 private:
-    bool every_frame_;
+    bool every_frame_, are_new_ = false;
     VoxelGrid grid_;
     ConservativeVoxelizer voxelizer_;
     VoxelFaces faces_;

@@ -8,6 +8,7 @@
 // Page: docs/07_anisotropic_mips.md
 #include "01_first_light/tone_map.hpp"
 #include "07_anisotropic_mips/lit_voxels.hpp"
+#include "app/needs.hpp"
 
 using namespace conebook;
 
@@ -36,8 +37,9 @@ try {
 
     while (app.next_frame()) {
         // snippet: frame
-        // What the lights see.
-        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+        // What the lights see, for the voxels.
+        if (voxel_params.shading.voxel_shadows == int(VoxelShadows::map))
+            app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
         voxels.run(app, scene, shadow_maps);
@@ -56,6 +58,9 @@ try {
     app.statistics().set_counts(voxels.counts());
     for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources()})
         app.statistics().add_resources(part);
+    for (const auto& needs : {voxel_material_needs(scene), shadow_maps.needs(scene)})
+        app.statistics().add_needs(needs);
+    app.statistics().add_needs({light_need(app.scene())});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "gl/pixel_pass.hpp"
 
@@ -50,7 +51,7 @@ DiffuseConeUniforms::DiffuseConeUniforms(const ConeParams& params)
     : sets_(params.interleave == int(Interleave::on) ? 16 : 1), cones_per_set_(kConeCounts[params.cones])
 {
     const bool many_sets = params.interleave != int(Interleave::off);
-    constexpr float kInterleavedAperture_deg = 10.0f;
+    constexpr float kInterleavedAperture_deg = 6.0f;
     const float aperture_deg = params.aperture == 0.0f && many_sets ? kInterleavedAperture_deg : params.aperture;
     ConeSet set = make_interleaved_cones(cones_per_set_, ConeTable(params.cone_table),
                                          glm::radians(double(aperture_deg)), many_sets ? 16 : 1);
@@ -75,10 +76,18 @@ void DiffuseConeUniforms::bind(const gl::Program& program, const ConeParams& par
     program.set("start_offset", params.start_offset);
 }
 
-DiffuseCones::DiffuseCones(gl::Shaders& shaders, const VoxelGrid& grid, const DiffuseConeParams& params)
+void EmittedLight::bind(const gl::Program& program) const
+{
+    if (pyramid == nullptr) return;
+    pyramid->bind_as_emission();
+    program.set("near_radius2", near_radius2_voxels);
+}
+
+DiffuseCones::DiffuseCones(gl::Shaders& shaders, const VoxelGrid& grid, const DiffuseConeParams& params,
+                           bool emission_apart)
     : plain_(params.plain),
-      gather_(shaders.load({"common/fullscreen.vert", "08_diffuse_cones/diffuse.frag"},
-                           {{"PLAIN", params.plain ? "1" : "0"}})),
+      gather_(shaders, {"common/fullscreen.vert", "08_diffuse_cones/diffuse.frag"},
+              {{"PLAIN", params.plain ? "1" : "0"}, {"EMITTED", emission_apart ? "1" : "0"}}),
       share_(shaders.load({"common/fullscreen.vert", "08_diffuse_cones/share.frag"}))
 {
     for (int face = 0; plain_ && face < shared::kFaceCount; ++face) {
@@ -90,6 +99,8 @@ DiffuseCones::DiffuseCones(gl::Shaders& shaders, const VoxelGrid& grid, const Di
 
 void DiffuseCones::copy_directions(const VoxelGrid& grid, const LightPyramid& pyramid)
 {
+    if (pyramid.format() != LightFormat::rgba16f)
+        throw std::runtime_error("--set plain=on: copies pyramids of format=rgba16f only");
     for (int face = 0; face < shared::kFaceCount; ++face)
         for (int level = 0; level < grid.levels(); ++level) {
             const glm::ivec3 size = grid.size() >> level;
@@ -102,7 +113,13 @@ void DiffuseCones::copy_directions(const VoxelGrid& grid, const LightPyramid& py
 const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid,
                                      const DiffuseConeUniforms& cones, const ConeParams& params)
 {
-    // Every pixel gathers by its own set of cones.
+    gather(g_buffer, grid, pyramid, {}, cones, params);
+    return share(g_buffer, grid, cones);
+}
+
+void DiffuseCones::gather(const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid,
+                          const EmittedLight& emitted, const DiffuseConeUniforms& cones, const ConeParams& params)
+{
     gl::fit_to_pixels(gathered_, gathered_framebuffer_, "gathered light", GL_RGBA16F, g_buffer.size());
     if (plain_) copy_directions(grid, pyramid);
     g_buffer.bind();
@@ -110,11 +127,18 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const VoxelGrid& g
     pyramid.bind();
     for (std::size_t face = 0; face < direction_volumes_.size(); ++face)
         direction_volumes_[face].bind(GLuint(shared::kDirectionVolumeUnit + int(face)));
-    cones.bind(gather_, params);
-    gl::draw_pixels(gather_, gathered_framebuffer_, no_vertices_, g_buffer.size());
+    const gl::Program& gather = gather_.reading(pyramid);
+    cones.bind(gather, params);
+    emitted.bind(gather);
+    gl::draw_pixels(gather, gathered_framebuffer_, no_vertices_, g_buffer.size());
+}
+
+const gl::Texture& DiffuseCones::share(const GBuffer& g_buffer, const VoxelGrid& grid, const DiffuseConeUniforms& cones)
+{
     if (cones.sets() == 1) return gathered_;
 
     // Pixels of one surface share what they gathered: there, and back again.
+    g_buffer.bind();
     gl::fit_to_pixels(shared_, shared_framebuffer_, "shared light", GL_RGBA16F, g_buffer.size());
     share_.set("plane_tolerance", grid.voxel_size_m());
     gathered_.bind(16);

@@ -51,6 +51,13 @@ private:
 // Those of shaders/common/cone.glsl alone.
 void set_cone_march(const gl::Program& program, const ConeParams& params);
 
+// What surfaces emit, where it is kept apart from what they reflect (chapter 11).
+struct EmittedLight {
+    const LightPyramid* pyramid = nullptr;  // LightPart::emitted, rgba16f
+    float near_radius2_voxels = 0.0f;       // of an emitter at distance t cones gather the share r^2 / (r^2 + t^2)
+    void bind(const gl::Program& program) const;
+};
+
 struct DiffuseConeParams {
     // The six directions as six textures and a loop that asks each, as first written: same light, for measuring.
     bool plain = false;
@@ -59,17 +66,26 @@ void add_parameters(ParameterTable& table, DiffuseConeParams& params);
 
 class DiffuseCones {
 public:
-    DiffuseCones(gl::Shaders& shaders, const VoxelGrid& grid, const DiffuseConeParams& params);
+    // `emission_apart`: gather() is given what surfaces emit beside what they reflect.
+    DiffuseCones(gl::Shaders& shaders, const VoxelGrid& grid, const DiffuseConeParams& params,
+                 bool emission_apart = false);
 
     // RGBA16F of the g-buffer's size: rgb E / pi in W/(sr m^2), a: ambient visibility 0..1.
     const gl::Texture& run(const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid,
                            const DiffuseConeUniforms& cones, const ConeParams& params);
+    // Its two steps, between which others may add to what is gathered: every pixel by its own set of cones, then
+    // neighbours share.
+    void gather(const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid, const EmittedLight& emitted,
+                const DiffuseConeUniforms& cones, const ConeParams& params);
+    const gl::Framebuffer& gathered_framebuffer() const { return gathered_framebuffer_; }
+    const gl::Texture& share(const GBuffer& g_buffer, const VoxelGrid& grid, const DiffuseConeUniforms& cones);
     std::vector<gl::Resource> resources() const;
 
 private:
     void copy_directions(const VoxelGrid& grid, const LightPyramid& pyramid);
     bool plain_;
-    gl::Program gather_, share_;
+    PyramidProgram gather_;
+    gl::Program share_;
     gl::VertexArray no_vertices_;
     gl::Texture gathered_, shared_;
     gl::Framebuffer gathered_framebuffer_, shared_framebuffer_;

@@ -9,6 +9,7 @@
 #include "02_g_buffer/direct_lighting.hpp"
 #include "08_diffuse_cones/diffuse_cones.hpp"
 #include "07_anisotropic_mips/lit_voxels.hpp"
+#include "app/needs.hpp"
 
 using namespace conebook;
 
@@ -78,6 +79,9 @@ try {
     app.statistics().set_counts(voxels.counts());
     for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(), direct_lighting.resources(), diffuse_cones.resources()})
         app.statistics().add_resources(part);
+    for (const auto& needs : {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene)})
+        app.statistics().add_needs(needs);
+    app.statistics().add_needs({light_need(app.scene()), sky_need(cone_params.sky)});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

@@ -85,8 +85,8 @@ std::vector<glm::vec2> directional_albedo_table(int size, int samples)
     std::vector<glm::vec2> table;
     for (int row = 0; row < size; ++row)
         for (int column = 0; column < size; ++column) {
-            const double roughness = std::max((row + 0.5) / size, double(kMinRoughness));
-            table.push_back(glm::vec2(albedo_over(disc, (column + 0.5) / size, roughness * roughness)));
+            const double roughness = std::max(double(row) / (size - 1), double(kMinRoughness));
+            table.push_back(glm::vec2(albedo_over(disc, double(column) / (size - 1), roughness * roughness)));
         }
     return table;
 }

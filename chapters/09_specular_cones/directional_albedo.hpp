@@ -12,7 +12,8 @@ namespace conebook {
 // precision with `samples` visible normals (Heitz 2018) of a Hammersley set.
 glm::dvec2 directional_albedo(double n_dot_v, double alpha, int samples);
 
-// Table of size * size entries, row by row: n_dot_v along a row, roughness from row to row, both (i + 1/2) / size.
+// Table of size * size entries, row by row: n_dot_v along a row, roughness from row to row, both
+// i / (size - 1), from 0 to 1.
 std::vector<glm::vec2> directional_albedo_table(int size, int samples);
 
 }  // namespace conebook

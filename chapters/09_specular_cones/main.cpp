@@ -10,6 +10,7 @@
 #include "02_g_buffer/direct_lighting.hpp"
 #include "07_anisotropic_mips/lit_voxels.hpp"
 #include "09_specular_cones/specular_cones.hpp"
+#include "app/needs.hpp"
 
 using namespace conebook;
 
@@ -43,6 +44,7 @@ try {
     const DiffuseConeUniforms cones(cone_params);
     DiffuseCones diffuse_cones(app.shaders(), voxels.grid(), diffuse_params);
     SpecularCones specular_cones(app.shaders());
+    const bool reflective = has_specular_surfaces(app.scene());
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
@@ -68,10 +70,11 @@ try {
             gathered = &diffuse_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cones, cone_params);
         });
 
-        // One cone along the mirror direction for the specular lobe.
-        app.pass("specular cones", [&] {
-            specular = &specular_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cone_params, specular_params);
-        });
+        // One cone along the mirror direction for the specular lobe, if any surface has one.
+        if (reflective)
+            app.pass("specular cones", [&] {
+                specular = &specular_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cone_params, specular_params);
+            });
 
         // Sum.
         const gl::Texture* linear = nullptr;
@@ -86,6 +89,10 @@ try {
     for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(),
                              direct_lighting.resources(), diffuse_cones.resources(), specular_cones.resources()})
         app.statistics().add_resources(part);
+    for (const auto& needs : {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene)})
+        app.statistics().add_needs(needs);
+    app.statistics().add_needs(
+        {light_need(app.scene()), sky_need(cone_params.sky), specular_cone_need(app.scene())});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

@@ -7,32 +7,60 @@ namespace conebook {
 
 void add_parameters(ParameterTable& table, SpecularConeParams& params)
 {
+    table.add("specular_cones", params.specular_cones, 1, 64, "", "cones in the lobe of a rough surface");
     table.add("lobe_share", params.lobe_share, 0.1, 0.95, "", "share of the GGX lobe that the specular cone holds");
     table.add("specular_start", params.specular_start, 0.0, 8.0, "voxels", "from the surface to the specular cone's start");
 }
 
-SpecularCones::SpecularCones(gl::Shaders& shaders)
-    : program_(shaders.load({"common/fullscreen.vert", "09_specular_cones/specular.frag"}, {{"PLAIN", "0"}}))
+SpecularCones::SpecularCones(gl::Shaders& shaders, bool emission_apart)
+    : trace_(shaders, {"common/fullscreen.vert", "09_specular_cones/specular.frag"}, 
+             {{"PLAIN", "0"}, {"EMITTED", emission_apart ? "1" : "0"}}),
+      share_(shaders.load({"common/fullscreen.vert", "09_specular_cones/specular_share.frag"}))
 {
-    constexpr int kTableSize = 32, kSamples = 1024;  // within 0.5 %, tests/09_specular_cones_test.cpp
+    constexpr int kTableSize = 32, kSamples = 2048;  // within 0.5 %, tests/09_specular_cones_test.cpp
     const std::vector<glm::vec2> table = directional_albedo_table(kTableSize, kSamples);
     directional_albedo_ = gl::texture_2d("directional albedo", GL_RG32F, {kTableSize, kTableSize});
     glTextureSubImage2D(directional_albedo_.id(), 0, 0, 0, kTableSize, kTableSize, GL_RG, GL_FLOAT, table.data());
     directional_albedo_.set_filter(GL_LINEAR, GL_LINEAR);
 }
 
-const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid,
-                                      const ConeParams& cone_params, const SpecularConeParams& params)
+void SpecularCones::bind(const gl::Program& program, const ConeParams& cone_params,
+                         const SpecularConeParams& params) const
 {
-    gl::fit_to_pixels(specular_, framebuffer_, "specular light", GL_RGBA16F, g_buffer.size());
+    set_cone_march(program, cone_params);
+    program.set("start_offset", params.specular_start);
+    program.set("interleave", cone_params.interleave == int(Interleave::on));
+    program.set("specular_cones", params.specular_cones);
+    program.set("lobe_share", params.lobe_share);
+}
+
+const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid,
+                                      const ConeParams& cone_params, const SpecularConeParams& params,
+                                      const EmittedLight& emitted)
+{
+    gl::fit_to_pixels(lobe_light_, lobe_framebuffer_, "light in the lobe", GL_RGBA16F, g_buffer.size());
+    gl::fit_to_pixels(specular_, specular_framebuffer_, "specular light", GL_RGBA16F, g_buffer.size());
+    // The mean of the light in every pixel's lobe, or in its part of a wide one.
     g_buffer.bind();
     grid.bind();
     pyramid.bind();
+    const gl::Program& trace = trace_.reading(pyramid);
+    bind(trace, cone_params, params);
+    emitted.bind(trace);
+    gl::draw_pixels(trace, specular_framebuffer_, no_vertices_, g_buffer.size());
+
+    // Neighbours share wide lobes, there and back again; then what the surface reflects of it.
     directional_albedo_.bind(16);
-    set_cone_march(program_, cone_params);
-    program_.set("start_offset", params.specular_start);
-    program_.set("lobe_share", params.lobe_share);
-    gl::draw_pixels(program_, framebuffer_, no_vertices_, g_buffer.size());
+    share_.set("interleave", cone_params.interleave == int(Interleave::on));
+    share_.set("plane_tolerance", grid.voxel_size_m());
+    specular_.bind(17);
+    share_.set("window_begin", -2);
+    share_.set("reflect_it", false);
+    gl::draw_pixels(share_, lobe_framebuffer_, no_vertices_, g_buffer.size());
+    lobe_light_.bind(17);
+    share_.set("window_begin", -1);
+    share_.set("reflect_it", true);
+    gl::draw_pixels(share_, specular_framebuffer_, no_vertices_, g_buffer.size());
     return specular_;
 }
 

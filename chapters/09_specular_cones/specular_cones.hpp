@@ -1,4 +1,4 @@
-// Glossy reflection: one cone a pixel along the mirror direction.
+// Glossy reflection: a few cones that share the GGX lobe.
 #pragma once
 
 #include "08_diffuse_cones/diffuse_cones.hpp"
@@ -6,6 +6,9 @@
 namespace conebook {
 
 struct SpecularConeParams {
+    // Cones that share the lobe of a rough surface, 1 .. 64; a sharp one (roughness below 0.1) has one cone. With
+    // ConeParams::interleave neighbours have other parts of a wide lobe and share them: 16 times as many.
+    int specular_cones = 4;
     // Share of the GGX lobe that the cone holds, 0.1 .. 0.95: larger is blurrier, smaller misses the lobe's long tail.
     float lobe_share = 0.75f;
     // Voxels from the middle of the surface's own voxel to the cone's start, 0 .. 8: a narrow cone that starts nearer shows
@@ -16,18 +19,24 @@ void add_parameters(ParameterTable& table, SpecularConeParams& params);
 
 class SpecularCones {
 public:
-    explicit SpecularCones(gl::Shaders& shaders);
+    // `emission_apart`: run() is given what surfaces emit beside what they reflect.
+    explicit SpecularCones(gl::Shaders& shaders, bool emission_apart = false);
 
     // RGBA16F of the g-buffer's size: radiance towards the camera.
     const gl::Texture& run(const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid,
-                           const ConeParams& cone_params, const SpecularConeParams& params);
-    std::vector<gl::Resource> resources() const { return {specular_.resource(), directional_albedo_.resource()}; }
+                           const ConeParams& cone_params, const SpecularConeParams& params,
+                           const EmittedLight& emitted = {});
+    std::vector<gl::Resource> resources() const { return {lobe_light_.resource(), specular_.resource(), directional_albedo_.resource()}; }
+
+    // What specular.frag reads beside g-buffer, grid and pyramid, for `program`, which may be a variant of it.
+    void bind(const gl::Program& program, const ConeParams& cone_params, const SpecularConeParams& params) const;
 
 private:
-    gl::Program program_;
+    PyramidProgram trace_;
+    gl::Program share_;
     gl::VertexArray no_vertices_;
-    gl::Texture directional_albedo_, specular_;
-    gl::Framebuffer framebuffer_;
+    gl::Texture directional_albedo_, lobe_light_, specular_;
+    gl::Framebuffer lobe_framebuffer_, specular_framebuffer_;
 };
 
 }  // namespace conebook

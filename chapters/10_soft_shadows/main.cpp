@@ -6,6 +6,7 @@
 // Page: docs/10_soft_shadows.md
 #include "01_first_light/tone_map.hpp"
 #include "10_soft_shadows/soft_shadows.hpp"
+#include "app/needs.hpp"
 
 using namespace conebook;
 
@@ -31,6 +32,8 @@ try {
 
     const GpuScene scene(app.scene());
     ShadowMaps shadow_maps(app.shaders(), scene, shadow_map_params);
+    const bool asks_maps = shadow_params.shadows == int(ShadowMethod::map) ||
+                           voxel_params.shading.voxel_shadows == int(VoxelShadows::map);
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     GBuffer g_buffer(app.shaders(), app.size());
     SoftShadowLighting lighting(app.shaders(), voxels.grid(), ShadowMethod(shadow_params.shadows));
@@ -38,8 +41,8 @@ try {
     ToneMapPass tone_map(app.shaders());
 
     while (app.next_frame()) {
-        // What the lights see.
-        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+        // What the lights see, if pixels or voxels ask.
+        if (asks_maps) app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
         voxels.run(app, scene, shadow_maps);
@@ -69,6 +72,10 @@ try {
     for (const auto& part :
          {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(), lighting.resources()})
         app.statistics().add_resources(part);
+    for (const auto& needs :
+         {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene), lighting.needs()})
+        app.statistics().add_needs(needs);
+    app.statistics().add_needs({light_need(app.scene()), sky_need(cone_params.sky)});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

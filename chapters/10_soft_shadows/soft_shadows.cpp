@@ -16,8 +16,8 @@ void add_parameters(ParameterTable& table, SoftShadowParams& params)
 
 SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders, const VoxelGrid& grid, ShadowMethod method)
     : method_(method),
-      lighting_(shaders.load({"common/fullscreen.vert", "10_soft_shadows/soft_lighting.frag"},
-                             {{"METHOD", std::to_string(int(method))}, {"PLAIN", "0"}}))
+      lighting_(shaders, {"common/fullscreen.vert", "10_soft_shadows/soft_lighting.frag"},
+                {{"METHOD", std::to_string(int(method))}, {"PLAIN", "0"}})
 {
     if (method_ != ShadowMethod::volume) return;
     fill_volume_ = shaders.load({"10_soft_shadows/visibility_volume.comp"});
@@ -59,22 +59,31 @@ const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuSce
     g_buffer.bind();
     grid.bind();
     pyramid.bind();
-    scene.bind_lights(lighting_);
-    shadow_maps.bind(lighting_);
-    set_cone_march(lighting_, cone_params);
-    lighting_.set("start_offset", cone_params.start_offset);
-    lighting_.set("light_radius", params.light_radius);
-    lighting_.set("light_half_angle", glm::radians(0.5f * params.light_angle));
-    lighting_.set("shadow_cones", params.shadow_cones);
-    lighting_.set("net_faces", params.shadow_net_faces);
-    lighting_.set("show_visibility", show_visibility);
-    gl::draw_pixels(lighting_, framebuffer_, no_vertices_, g_buffer.size());
+    const gl::Program& lighting = lighting_.reading(pyramid);
+    scene.bind_lights(lighting);
+    shadow_maps.bind(lighting);
+    set_cone_march(lighting, cone_params);
+    lighting.set("start_offset", cone_params.start_offset);
+    lighting.set("light_radius", params.light_radius);
+    lighting.set("light_half_angle", glm::radians(0.5f * params.light_angle));
+    lighting.set("shadow_cones", params.shadow_cones);
+    lighting.set("net_faces", params.shadow_net_faces);
+    lighting.set("show_visibility", show_visibility);
+    gl::draw_pixels(lighting, framebuffer_, no_vertices_, g_buffer.size());
     return color_;
 }
 
 std::vector<gl::Resource> SoftShadowLighting::resources() const
 {
     return {color_.resource(), visibility_volume_.resource()};
+}
+
+std::vector<Need> SoftShadowLighting::needs() const
+{
+    constexpr const char* kAsked[] = {"shadows=map", "shadows=cone", "shadows=volume"};
+    const std::string asked = kAsked[int(method_)];
+    return {{"shadow cones", method_ == ShadowMethod::cone, asked},
+            {"visibility volume", method_ == ShadowMethod::volume, asked}};
 }
 
 }  // namespace conebook

@@ -38,11 +38,13 @@ public:
                            const ShadowMaps& shadow_maps, const ConeParams& cone_params, const SoftShadowParams& params,
                            bool show_visibility);
     std::vector<gl::Resource> resources() const;
+    std::vector<Need> needs() const;
 
 private:
     void fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
     ShadowMethod method_;
-    gl::Program lighting_, fill_volume_;
+    PyramidProgram lighting_;
+    gl::Program fill_volume_;
     gl::VertexArray no_vertices_;
     gl::Texture visibility_volume_, color_;
     gl::Framebuffer framebuffer_;

@@ -1,13 +1,13 @@
-// 11_emissives: surfaces that shine light the room; nothing but their radiance in the voxels is needed.
+// 11_emissives: surfaces that shine light the room: cones gather those nearby, rays are aimed at those far away.
 //
-//     L = Le + (rho / pi) E  in every face, so a cone that meets an emitter gathers Le; a disc of radius R at height h
-//     above a plane gives E = pi Le R^2 / (R^2 + h^2)
+//     E = sum_parts Le A cos cos' V / (d^2 + A / pi)   for parts of area A; a disc of radius R at height h above a plane
+//     gives E = pi Le R^2 / (R^2 + h^2)
 //
 // Page: docs/11_emissives.md
 #include "01_first_light/tone_map.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
-#include "09_specular_cones/specular_cones.hpp"
-#include "11_emissives/emissive_light.hpp"
+#include "11_emissives/emitters.hpp"
+#include "app/needs.hpp"
 
 using namespace conebook;
 
@@ -18,11 +18,11 @@ try {
     ConeParams cone_params;
     DiffuseConeParams diffuse_params;
     SpecularConeParams specular_params;
+    EmitterParams emitter_params;
     CompositeParams composite_params;
     DisplayParams display_params;
-    cone_params.cones = 3;  // 16: emitters are small and bright, a cone meets them or not
     ParameterTable parameters = parameters_of(voxel_params, shadow_params, cone_params, diffuse_params,
-                                              specular_params, composite_params, display_params);
+                                              specular_params, emitter_params, composite_params, display_params);
 
     App app(argc, argv,
             {"11_emissives",
@@ -38,12 +38,13 @@ try {
     const GpuScene scene(app.scene());
     ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
     LitVoxels voxels(app.shaders(), scene, voxel_params);
-    EmissiveLight emissive_light(app.shaders());
+    Emitters emitters(app.shaders(), app.scene(), voxels.grid(), voxels.voxelizer(), emitter_params);
     GBuffer g_buffer(app.shaders(), app.size());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
     const DiffuseConeUniforms cones(cone_params);
-    DiffuseCones diffuse_cones(app.shaders(), voxels.grid(), diffuse_params);
-    SpecularCones specular_cones(app.shaders());
+    DiffuseCones diffuse_cones(app.shaders(), voxels.grid(), diffuse_params, emitters.are_apart());
+    SpecularCones specular_cones(app.shaders(), emitters.are_apart());
+    const bool reflective = has_specular_surfaces(app.scene());
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
@@ -51,14 +52,13 @@ try {
         // What the lights see.
         app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
 
-        // Triangles -> voxels -> radiance -> six pyramids.
-        voxels.run(app, scene, shadow_maps);
+        // snippet: emission_apart
+        // Triangles -> voxels -> what they reflect -> six pyramids. On request nothing that they reflect.
+        voxels.run(app, scene, shadow_maps, app.shows("from_emitters") ? LightPart::none : emitters.part_of_voxels());
 
-        // snippet: emitters_alone
-        // On request keep of the faces' light only what they emit, and make the pyramids from that.
-        if (app.shows("from_emitters"))
-            app.pass("emitters alone",
-                     [&] { voxels.pyramid().run(voxels.grid(), voxels.faces(), emissive_light.run(voxels.faces())); });
+        // What they emit -> six more, and the parts of it to aim at.
+        if (voxels.are_new())
+            app.pass("emitters", [&] { emitters.run(voxels.grid(), voxels.faces(), voxels.shading()); });
         // end snippet
 
         // What the camera sees, and what of it the lamps reach.
@@ -73,10 +73,13 @@ try {
         // Light of other surfaces, shining or lit.
         const gl::Texture *gathered = nullptr, *specular = nullptr;
         app.pass("diffuse cones",
-                 [&] { gathered = &diffuse_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cones, cone_params); });
-        app.pass("specular cones", [&] {
-            specular = &specular_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cone_params, specular_params);
-        });
+                 [&] { gathered = &emitters.gather(diffuse_cones, g_buffer, voxels.grid(), voxels.pyramid(), cones,
+                                              cone_params); });
+        if (reflective)
+            app.pass("specular cones", [&] {
+                specular = &specular_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cone_params, specular_params,
+                                               emitters.all_light());
+            });
 
         // Sum.
         LightParts parts = parts_of_view(app.view().name);
@@ -93,9 +96,13 @@ try {
     for (int channel = 0; channel < 3; ++channel)
         counts.push_back({std::string("emitted power, ") + "rgb"[channel], power_w[channel], "W"});
     app.statistics().set_counts(counts);
-    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(),
-                             direct_lighting.resources(), diffuse_cones.resources(), specular_cones.resources()})
+    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), emitters.resources(),
+                             g_buffer.resources(), direct_lighting.resources(), diffuse_cones.resources(), specular_cones.resources()})
         app.statistics().add_resources(part);
+    for (const auto& needs : {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene)})
+        app.statistics().add_needs(needs);
+    app.statistics().add_needs(
+        {light_need(app.scene()), emitters.need(), sky_need(cone_params.sky), specular_cone_need(app.scene())});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

@@ -1,5 +1,7 @@
 #include "12_second_bounce/lit_pixels.hpp"
 
+#include "app/needs.hpp"
+
 namespace conebook {
 
 void add_parameters(ParameterTable& table, LitPixelParams& params)
@@ -22,13 +24,15 @@ std::vector<View> light_views()
                   surface_views());
 }
 
-LitPixels::LitPixels(gl::Shaders& shaders, const VoxelGrid& grid, glm::ivec2 size, const LitPixelParams& params)
+LitPixels::LitPixels(gl::Shaders& shaders, const VoxelGrid& grid, Emitters& emitters, glm::ivec2 size,
+                     const LitPixelParams& params)
     : params_(params),
+      emitters_(emitters),
       cones_(params.cones),
       g_buffer_(shaders, size),
       direct_lighting_(shaders, grid, ShadowMethod(params.shadows.shadows)),
-      diffuse_cones_(shaders, grid, params.diffuse),
-      specular_cones_(shaders),
+      diffuse_cones_(shaders, grid, params.diffuse, emitters.are_apart()),
+      specular_cones_(shaders, emitters.are_apart()),
       composite_(shaders),
       pyramid_view_(shaders),
       g_buffer_view_(shaders)
@@ -43,20 +47,22 @@ const gl::Texture& LitPixels::run(App& app, const GpuScene& scene, const LitVoxe
     app.pass("g-buffer", [&] { g_buffer_.draw(scene, app.camera()); });
 
     // Light straight from the lights.
-    const gl::Texture* direct = nullptr;
     app.pass("direct light", [&] {
-        direct = &direct_lighting_.run(g_buffer_, scene, voxels, shadow_maps, params_.cones, params_.shadows, false);
+        direct_ = &direct_lighting_.run(g_buffer_, scene, voxels, shadow_maps, params_.cones, params_.shadows, false);
     });
 
     // Light by way of other surfaces: many narrow cones for the diffuse lobe, one for the specular one.
-    const gl::Texture *gathered = nullptr, *specular = nullptr;
+    gathered_ = specular_ = nullptr;
     if (indirect) {
         app.pass("diffuse cones", [&] {
-            gathered = &diffuse_cones_.run(g_buffer_, voxels.grid(), voxels.pyramid(), cones_, params_.cones);
+            gathered_ = &emitters_.gather(diffuse_cones_, g_buffer_, voxels.grid(), voxels.pyramid(), cones_,
+                                          params_.cones);
         });
-        app.pass("specular cones", [&] {
-            specular = &specular_cones_.run(g_buffer_, voxels.grid(), voxels.pyramid(), params_.cones, params_.specular);
-        });
+        if (has_specular_surfaces(app.scene()))
+            app.pass("specular cones", [&] {
+                specular_ = &specular_cones_.run(g_buffer_, voxels.grid(), voxels.pyramid(), params_.cones,
+                                                 params_.specular, emitters_.all_light());
+            });
     }
 
     // Sum, or one of the intermediate results.
@@ -65,12 +71,17 @@ const gl::Texture& LitPixels::run(App& app, const GpuScene& scene, const LitVoxe
         const gl::Buffer camera("camera", std::vector{app.camera()});
         if (app.shows("voxels"))
             linear = &pyramid_view_.run(voxels.grid(), voxels.voxelizer().occupancy(), voxels.pyramid(), 0,
-                                        PyramidViewParams{}, false, camera, app.size());
+                                        PyramidViewParams{}, false, camera, app.size(), emitters_.pyramid());
         else if (linear = g_buffer_view_.run(g_buffer_, app.view().name); linear == nullptr)
-            linear = &composite_.run(g_buffer_, direct, gathered, specular, parts_of_view(app.view().name),
-                                     params_.composite, params_.cones.sky);
+            linear = &composite(app.view().name);
     });
     return *linear;
+}
+
+const gl::Texture& LitPixels::composite(const std::string& view)
+{
+    return composite_.run(g_buffer_, direct_, gathered_, specular_, parts_of_view(view), params_.composite,
+                          params_.cones.sky);
 }
 
 std::vector<gl::Resource> LitPixels::resources() const
@@ -78,6 +89,16 @@ std::vector<gl::Resource> LitPixels::resources() const
     std::vector<gl::Resource> all = g_buffer_.resources();
     for (const auto& part : {direct_lighting_.resources(), diffuse_cones_.resources(), specular_cones_.resources()})
         all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+std::vector<Need> LitPixels::needs(const Scene& scene, bool indirect) const
+{
+    std::vector<Need> all = direct_lighting_.needs();
+    const std::string direct_alone = "bounces=0: direct light alone";
+    all.push_back({"diffuse cones", indirect, indirect ? "for indirect light" : direct_alone});
+    all.push_back(indirect ? specular_cone_need(scene) : Need{"specular cones", false, direct_alone});
+    all.push_back(sky_need(params_.cones.sky));
     return all;
 }
 

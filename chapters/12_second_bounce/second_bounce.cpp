@@ -11,15 +11,15 @@ void add_parameters(ParameterTable& table, BounceParams& params)
     table.add("tolerance", params.tolerance, 1e-6, 0.1, "", "bounces=-1: largest change over largest radiance");
 }
 
-SecondBounce::SecondBounce(gl::Shaders& shaders)
-    : gather_(shaders.load({"12_second_bounce/bounce.comp"}, {{"PLAIN", "0"}})),
+SecondBounce::SecondBounce(gl::Shaders& shaders, bool emission_apart)
+    : gather_(shaders, {"12_second_bounce/bounce.comp"}, {{"PLAIN", "0"}, {"EMITTED", emission_apart ? "1" : "0"}}),
       send_on_(shaders.load({"12_second_bounce/send_on.comp"})),
       change_("bounce change", 2 * sizeof(GLuint))
 {
 }
 
-void SecondBounce::run(LitVoxels& voxels, const DiffuseConeUniforms& cones, const ConeParams& cone_params,
-                       const BounceParams& params)
+void SecondBounce::run(LitVoxels& voxels, const Emitters& emitters, const DiffuseConeUniforms& cones,
+                       const ConeParams& cone_params, const BounceParams& params)
 {
     const VoxelFaces& faces = voxels.faces();
     const std::size_t bytes = faces.face_count() * sizeof(glm::vec4);
@@ -37,9 +37,11 @@ void SecondBounce::run(LitVoxels& voxels, const DiffuseConeUniforms& cones, cons
         voxels.grid().bind();
         faces.bind();
         voxels.pyramid().bind();
-        cones.bind(gather_, cone_params);
+        const gl::Program& gather = gather_.reading(voxels.pyramid());
+        cones.bind(gather, cone_params);
+        if (emitters.are_apart()) emitters.bind(gather, cones);
         gathered_.bind(GL_SHADER_STORAGE_BUFFER, 12);
-        gather_.use();
+        gather.use();
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
         glDispatchComputeIndirect(0);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -55,7 +57,7 @@ void SecondBounce::run(LitVoxels& voxels, const DiffuseConeUniforms& cones, cons
 
         // snippet: next_bounce
         // The pyramids again, from what the faces send now.
-        voxels.pyramid().run(voxels.grid(), faces, bounced_);
+        voxels.pyramid().run(voxels.grid(), faces, bounced_, emitters.part_of_voxels());
         if (!to_convergence) continue;
         const auto largest = change_.read_at<std::array<GLuint, 2>>(0);
         if (std::bit_cast<float>(largest[0]) <= params.tolerance * std::bit_cast<float>(largest[1])) {

@@ -1,8 +1,7 @@
 // Two bounces and more: cones from the voxels themselves.
 #pragma once
 
-#include "08_diffuse_cones/diffuse_cones.hpp"
-#include "07_anisotropic_mips/lit_voxels.hpp"
+#include "11_emissives/emitters.hpp"
 
 namespace conebook {
 
@@ -17,19 +16,21 @@ void add_parameters(ParameterTable& table, BounceParams& params);
 
 class SecondBounce {
 public:
-    explicit SecondBounce(gl::Shaders& shaders);
+    // `emission_apart`: Emitters::are_apart().
+    SecondBounce(gl::Shaders& shaders, bool emission_apart);
 
     // Make the pyramid of `voxels` hold the light after params.bounces - 1 gatherings from voxel to voxel. The gathered
     // radiance is a mean (weights sum to 1) and the albedo is clamped to 0.99, so no bounce adds more than the last one
     // and the sum is bounded by L(0) / (1 - 0.99).
-    void run(LitVoxels& voxels, const DiffuseConeUniforms& cones, const ConeParams& cone_params,
-             const BounceParams& params);
+    void run(LitVoxels& voxels, const Emitters& emitters, const DiffuseConeUniforms& cones,
+             const ConeParams& cone_params, const BounceParams& params);
 
     int gatherings() const { return gatherings_; }  // of the last run
     std::vector<gl::Resource> resources() const { return {gathered_.resource(), bounced_.resource()}; }
 
 private:
-    gl::Program gather_, send_on_;
+    PyramidProgram gather_;
+    gl::Program send_on_;
     gl::Buffer gathered_, bounced_, change_;
     int gatherings_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "app/needs.hpp"
 #include "app/window.hpp"
 #include "image/image.hpp"
 
@@ -55,6 +56,7 @@ App::App(int argc, char** argv, ProgramInfo info)
     software_driver_ = driver.find("llvmpipe") != std::string::npos || driver.find("softpipe") != std::string::npos ||
                        driver.find("SWR") != std::string::npos;
     statistics_.set_run(info_.name, driver + ", " + version, size_);
+    statistics_.add_needs({camera_need(scene_, options_.camera)});
     // The book's conventions for every pass: depth 1 near and 0 far, stored as float without loss.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);

@@ -39,6 +39,7 @@ public:
     int frame() const { return frame_; }        // 0, 1, 2, ...
     glm::ivec2 size() const { return size_; }   // of the picture in pixels; a window may change it between frames
     shared::CameraData camera() const;          // this frame's
+    const Camera& scene_camera() const { return camera_; }  // the same, as the path tracer takes it
     const View& view() const;                   // this frame's
     bool shows(const std::string& view_name) const { return view().name == view_name; }
 

@@ -12,7 +12,8 @@
 
 namespace conebook {
 
-// Something that a scene may need or not (a shadow map, an emission volume, ...), and why.
+// Something that a scene may need or not (a shadow map, specular cones, ...), and why: what the program did, not what
+// it could have done.
 struct Need {
     std::string name;
     bool used = false;
@@ -35,7 +36,7 @@ public:
         std::copy_if(resources.begin(), resources.end(), std::back_inserter(resources_),
                      [](const gl::Resource& resource) { return resource.bytes > 0; });
     }
-    void set_needs(std::vector<Need> needs) { needs_ = std::move(needs); }
+    void add_needs(const std::vector<Need>& needs) { needs_.insert(needs_.end(), needs.begin(), needs.end()); }
     void set_counts(std::vector<Count> counts) { counts_ = std::move(counts); }
     void set_run(std::string program, std::string driver, glm::ivec2 size)
     {

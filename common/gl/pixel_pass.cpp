@@ -10,11 +10,12 @@ void fit_to_pixels(Texture& color, Framebuffer& framebuffer, const std::string& 
 }
 
 void draw_pixels(const Program& program, const Framebuffer& framebuffer, const VertexArray& no_vertices,
-                 glm::ivec2 size)
+                 glm::ivec2 size, Write write)
 {
     framebuffer.bind(size);
     glDisable(GL_DEPTH_TEST);
-    glDisable(GL_BLEND);
+    (write == Write::add ? glEnable : glDisable)(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
     program.use();
     draw_fullscreen_triangle(no_vertices);
 }

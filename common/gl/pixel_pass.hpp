@@ -9,8 +9,10 @@ namespace conebook::gl {
 // Make `color` and its framebuffer again when the size changes, or when there is none yet.
 void fit_to_pixels(Texture& color, Framebuffer& framebuffer, const std::string& label, GLenum format, glm::ivec2 size);
 
-// Run `program` (common/fullscreen.vert and a fragment shader) for every pixel, without depth test and blending.
+enum class Write { replace, add };
+
+// Run `program` (common/fullscreen.vert and a fragment shader) for every pixel, without depth test.
 void draw_pixels(const Program& program, const Framebuffer& framebuffer, const VertexArray& no_vertices,
-                 glm::ivec2 size);
+                 glm::ivec2 size, Write write = Write::replace);
 
 }  // namespace conebook::gl

@@ -1,6 +1,7 @@
 #include "gl/shaders.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -93,26 +94,54 @@ std::string with_file_names(const std::string& log, const ExpandedSource& source
     return out;
 }
 
-GLuint compile(const std::filesystem::path& root, const std::string& file, const Defines& defines)
+// What the compiler or linker says of an object.
+template <typename GetParameter, typename GetLog>
+std::string info_log(GLuint object, GetParameter get_parameter, GetLog get_log)
 {
-    ExpandedSource source;
-    expand(root, file, defines, source);
-    const GLuint shader = glCreateShader(stage_of(file));
-    const char* text = source.text.c_str();
-    glShaderSource(shader, 1, &text, nullptr);
-    glCompileShader(shader);
-    GLint ok = 0, length = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    GLint length = 0;
+    get_parameter(object, GL_INFO_LOG_LENGTH, &length);
     std::string log(std::size_t(std::max(length, 1)), '\0');
-    glGetShaderInfoLog(shader, length, nullptr, log.data());
-    log = log.c_str();
-    const bool warned = log.find("warning") != std::string::npos || log.find("WARNING") != std::string::npos;
-    if (!ok || warned) {
+    get_log(object, length, nullptr, log.data());
+    return log.c_str();
+}
+
+bool warns(const std::string& log)
+{
+    return log.find("warning") != std::string::npos || log.find("WARNING") != std::string::npos;
+}
+
+// Throws when the compiler has anything to complain of.
+GLuint compile(const ExpandedSource& source, const std::string& text, GLenum stage)
+{
+    const GLuint shader = glCreateShader(stage);
+    const char* begin = text.c_str();
+    glShaderSource(shader, 1, &begin, nullptr);
+    glCompileShader(shader);
+    GLint ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    const std::string log = info_log(shader, glGetShaderiv, glGetShaderInfoLog);
+    if (!ok || warns(log)) {
         glDeleteShader(shader);
         throw std::runtime_error("shader " + with_file_names(log, source));
     }
     return shader;
+}
+
+GLuint compile(const std::filesystem::path& root, const std::string& file, const Defines& defines)
+{
+    ExpandedSource source;
+    expand(root, file, defines, source);
+    const GLenum stage = stage_of(file);
+    // Mesa does not compile again, and says nothing of, a text that its disk cache knows: a warning would count once and
+    // never more. So a text that it cannot know, with the time behind it, goes first; one that warns is then never cached.
+    // 0.2 to 4 ms a shader, 45 ms for the 36 of chapter 12 (llvmpipe, Mesa 22.3.6).
+    const bool is_mesa =
+        std::string(reinterpret_cast<const char*>(glGetString(GL_VERSION))).find("Mesa") != std::string::npos;
+    if (is_mesa) {
+        const auto now = std::chrono::system_clock::now().time_since_epoch().count();
+        glDeleteShader(compile(source, source.text + "// " + std::to_string(now) + "\n", stage));
+    }
+    return compile(source, source.text, stage);
 }
 
 GLuint link(const std::filesystem::path& root, const std::vector<std::string>& files, const Defines& defines)
@@ -134,13 +163,10 @@ GLuint link(const std::filesystem::path& root, const std::vector<std::string>& f
     }
     glLinkProgram(program);
     release();
-    GLint ok = 0, length = 0;
+    GLint ok = 0;
     glGetProgramiv(program, GL_LINK_STATUS, &ok);
-    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-    std::string log(std::size_t(std::max(length, 1)), '\0');
-    glGetProgramInfoLog(program, length, nullptr, log.data());
-    log = log.c_str();
-    if (!ok || log.find("warning") != std::string::npos) {
+    const std::string log = info_log(program, glGetProgramiv, glGetProgramInfoLog);
+    if (!ok || warns(log)) {
         glDeleteProgram(program);
         throw std::runtime_error("shader " + files.back() + ": " + log);
     }

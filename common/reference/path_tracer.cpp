@@ -61,20 +61,18 @@ struct Sample {
 
 class Integrator {
 public:
-    Integrator(const Scene& scene, const PathTraceOptions& options)
-        : options_(options),
-          tracer_(scene, options.threads),
-          emitters_(scene),
-          diameter_(glm::length(scene.bounds.extent()))
+    Integrator(const Scene& scene, int threads)
+        : tracer_(scene, threads), emitters_(scene), diameter_(glm::length(scene.bounds.extent()))
     {
     }
 
-    Sample sample(const Ray& camera, Pcg32& rng) const
+    // Along one ray of the camera, with `bounces` and `sky` as in PathTraceOptions.
+    Sample sample(const Ray& camera, int bounces, const glm::vec3& sky, Pcg32& rng) const
     {
         Sample s;
         auto hit = tracer_.intersect_camera(camera);
         if (!hit) {
-            s.emission = options_.sky;
+            s.emission = sky;
             return s;
         }
         s.covered = true;
@@ -84,7 +82,7 @@ public:
 
         // One path serves both lobes of the visible surface: it carries a throughput for each.
         glm::vec3 beta_diffuse(1.0f), beta_specular(1.0f);
-        for (int bounce = 1; options_.bounces < 0 || bounce <= options_.bounces; ++bounce) {
+        for (int bounce = 1; bounces < 0 || bounce <= bounces; ++bounce) {
             if (!hit->brdf.has_diffuse() && !hit->brdf.has_specular()) break;
             const Vertex3 x(tracer_, *hit, view);
             const bool first = bounce == 1;
@@ -93,6 +91,7 @@ public:
                              : std::pair(beta_diffuse * f.sum(), beta_specular * f.sum());
             };
 
+            // snippet: next_event
             if (!emitters_.empty()) {
                 float weight = 0.0f;
                 glm::vec3 wi, radiance;
@@ -102,6 +101,7 @@ public:
                     s.indirect_specular += specular * radiance * weight;
                 }
             }
+            // end snippet
 
             const glm::vec2 u = rng.next_2d();
             const glm::vec3 wi_local = sample_brdf(hit->brdf, x.wo, u, rng.next());
@@ -112,6 +112,7 @@ public:
             beta_diffuse /= pdf;
             beta_specular /= pdf;
             if (!any(beta_diffuse) && !any(beta_specular)) break;
+            // snippet: roulette
             if (bounce >= kRouletteStart) {
                 // Kept below 1 so that a path ends even where nothing absorbs.
                 const float survive = std::min(0.95f, largest(beta_diffuse + beta_specular));
@@ -119,14 +120,16 @@ public:
                 beta_diffuse /= survive;
                 beta_specular /= survive;
             }
+            // end snippet
 
             const auto next = tracer_.intersect({x.leave, wi});
             if (!next) {
-                s.indirect_diffuse += beta_diffuse * options_.sky;
-                s.indirect_specular += beta_specular * options_.sky;
+                s.indirect_diffuse += beta_diffuse * sky;
+                s.indirect_specular += beta_specular * sky;
                 break;
             }
             if (next->dark) break;
+            // snippet: emitter_hit
             glm::vec3 gathered(0.0f);
             if (any(next->emission)) {
                 const float cosine = -glm::dot(wi, next->geometric_normal);
@@ -136,6 +139,7 @@ public:
             }
             view = -wi;
             gathered += direct_light(Vertex3(tracer_, *next, view)).sum();
+            // end snippet
             s.indirect_diffuse += beta_diffuse * gathered;
             s.indirect_specular += beta_specular * gathered;
             hit = next;
@@ -186,7 +190,6 @@ private:
         return true;
     }
 
-    const PathTraceOptions& options_;
     SceneTracer tracer_;
     EmitterSampler emitters_;
     float diameter_;
@@ -260,6 +263,132 @@ glm::vec3 unshadowed_irradiance(const Light& light, const glm::vec3& position, f
     return light.intensity * factor;
 }
 
+struct PathTracer::Work {
+    Work(const Scene& scene, int thread_count)
+        : integrator(scene, thread_count),
+          threads(thread_count > 0 ? thread_count : int(std::max(1u, std::thread::hardware_concurrency())))
+    {
+    }
+
+    void render_tile(int tile, int first_sample, int last_sample);
+
+    Integrator integrator;
+    int threads;
+    Camera camera;
+    PathTraceOptions options;
+    std::vector<Accumulator> accumulators;  // a pixel's parts side by side
+    std::vector<std::uint32_t> covered;     // samples that met geometry
+    std::atomic<std::uint64_t> non_finite{0};
+    int done = 0;  // samples of each pixel
+    int tiles_x = 0, tiles_y = 0;
+};
+
+PathTracer::PathTracer(const Scene& scene, int threads) : work_(std::make_unique<Work>(scene, threads)) {}
+PathTracer::~PathTracer() = default;
+PathTracer::PathTracer(PathTracer&&) noexcept = default;
+PathTracer& PathTracer::operator=(PathTracer&&) noexcept = default;
+
+void PathTracer::start(const Camera& camera, const PathTraceOptions& options)
+{
+    check(options);
+    Work& w = *work_;
+    const std::size_t pixels = std::size_t(options.width) * std::size_t(options.height);
+    w.camera = camera;
+    w.options = options;
+    w.accumulators.assign(pixels * options.parts.size(), {});
+    w.covered.assign(pixels, 0);
+    w.non_finite = 0;
+    w.done = 0;
+    w.tiles_x = (options.width + kTile - 1) / kTile;
+    w.tiles_y = (options.height + kTile - 1) / kTile;
+}
+
+// snippet: sample_numbers
+// Each pixel's samples are added by one thread at a time in ascending order: same sums for any number of threads.
+void PathTracer::Work::render_tile(int tile, int first_sample, int last_sample)
+{
+    const int x0 = tile % tiles_x * kTile, y0 = tile / tiles_x * kTile;
+    for (int y = y0; y < std::min(y0 + kTile, options.height); ++y)
+        for (int x = x0; x < std::min(x0 + kTile, options.width); ++x) {
+            const std::size_t pixel = std::size_t(y) * std::size_t(options.width) + std::size_t(x);
+            for (int i = first_sample; i < last_sample; ++i) {
+                Pcg32 rng(options.seed, pixel, std::uint64_t(i));
+                const glm::vec2 jitter = rng.next_2d();
+                const Ray ray =
+                    camera_ray(camera, float(x) + jitter.x, float(y) + jitter.y, options.width, options.height);
+                const Sample sample = integrator.sample(ray, options.bounces, options.sky, rng);
+                // end snippet
+                covered[pixel] += sample.covered;
+                if (!finite(value_of(sample, Part::final))) {
+                    ++non_finite;
+                    continue;
+                }
+                for (std::size_t p = 0; p < options.parts.size(); ++p) {
+                    const glm::dvec3 value = value_of(sample, options.parts[p]);
+                    Accumulator& a = accumulators[pixel * options.parts.size() + p];
+                    a.sum += value;
+                    a.sum_of_squares += value * value;
+                }
+            }
+        }
+}
+
+bool PathTracer::add_samples(int count, const std::stop_token& stop, const std::function<void(double)>& progress)
+{
+    Work& w = *work_;
+    if (count < 1 || w.accumulators.empty()) throw std::logic_error("path tracer: add_samples without start or samples");
+    const int first = w.done, last = w.done + count, tiles = w.tiles_x * w.tiles_y;
+    std::atomic<int> next_tile{0}, running{w.threads};
+    {
+        std::vector<std::jthread> workers;
+        for (int t = 0; t < w.threads; ++t)
+            workers.emplace_back([&] {
+                for (int tile; !stop.stop_requested() && (tile = next_tile++) < tiles;)
+                    w.render_tile(tile, first, last);
+                --running;
+            });
+        while (running > 0 && progress) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            progress(std::min(1.0, double(next_tile) / tiles));
+        }
+    }  // joins
+    if (stop.stop_requested()) {
+        // Some pixels have more samples than others.
+        w.accumulators.clear();
+        w.done = 0;
+        return false;
+    }
+    w.done = last;
+    return true;
+}
+
+PathTraceResult PathTracer::result() const
+{
+    const Work& w = *work_;
+    if (w.done == 0) throw std::logic_error("path tracer: no samples yet");
+    const std::size_t parts = w.options.parts.size(), pixels = w.covered.size();
+    const double n = double(w.done);
+    PathTraceResult result;
+    result.spp = w.done;
+    result.non_finite = w.non_finite;
+    for (std::size_t p = 0; p < parts; ++p) {
+        ImageF picture{w.options.width, w.options.height, std::vector<glm::vec4>(pixels)};
+        ImageF error = picture;
+        for (std::size_t i = 0; i < pixels; ++i) {
+            // snippet: standard_error
+            const Accumulator& a = w.accumulators[i * parts + p];
+            const glm::dvec3 mean = a.sum / n;
+            const glm::dvec3 variance = glm::max(a.sum_of_squares / n - mean * mean, glm::dvec3(0.0));
+            picture.pixels[i] = glm::vec4(mean, float(double(w.covered[i]) / n));
+            error.pixels[i] = glm::vec4(w.done > 1 ? glm::sqrt(variance / (n - 1.0)) : glm::dvec3(0.0), 1.0f);
+            // end snippet
+        }
+        result.pictures.push_back(std::move(picture));
+        result.errors.push_back(std::move(error));
+    }
+    return result;
+}
+
 PathTraceResult path_trace(const Scene& scene, const Camera& camera, const PathTraceOptions& options)
 {
     check(options);
@@ -267,77 +396,17 @@ PathTraceResult path_trace(const Scene& scene, const Camera& camera, const PathT
     const auto seconds = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
-    const Integrator integrator(scene, options);
-    const int threads = options.threads > 0 ? options.threads : int(std::max(1u, std::thread::hardware_concurrency()));
-    const std::size_t pixels = std::size_t(options.width) * options.height, parts = options.parts.size();
-    std::vector<Accumulator> accumulators(pixels * parts);
-    std::vector<std::uint32_t> covered(pixels, 0);
-    std::atomic<std::uint64_t> non_finite{0};
-    const int tiles_x = (options.width + kTile - 1) / kTile, tiles_y = (options.height + kTile - 1) / kTile;
-
-    // Each pixel's samples are added by one thread at a time in ascending order: same sums for any number of threads.
-    const auto render_tile = [&](int tile, int first_sample, int last_sample) {
-        const int x0 = tile % tiles_x * kTile, y0 = tile / tiles_x * kTile;
-        for (int y = y0; y < std::min(y0 + kTile, options.height); ++y)
-            for (int x = x0; x < std::min(x0 + kTile, options.width); ++x) {
-                const std::size_t pixel = std::size_t(y) * options.width + x;
-                for (int i = first_sample; i < last_sample; ++i) {
-                    Pcg32 rng(options.seed, pixel, std::uint64_t(i));
-                    const glm::vec2 jitter = rng.next_2d();
-                    const Ray ray =
-                        camera_ray(camera, float(x) + jitter.x, float(y) + jitter.y, options.width, options.height);
-                    const Sample sample = integrator.sample(ray, rng);
-                    covered[pixel] += sample.covered;
-                    if (!finite(value_of(sample, Part::final))) {
-                        ++non_finite;
-                        continue;
-                    }
-                    for (std::size_t p = 0; p < parts; ++p) {
-                        const glm::dvec3 value = value_of(sample, options.parts[p]);
-                        accumulators[pixel * parts + p].sum += value;
-                        accumulators[pixel * parts + p].sum_of_squares += value * value;
-                    }
-                }
-            }
-    };
-
-    int done = 0;
-    while (done < options.spp) {
-        const int last = std::min(done + kPassSpp, options.spp);
-        std::atomic<int> next_tile{0};
-        std::atomic<int> running{threads};
-        std::vector<std::jthread> workers;
-        for (int t = 0; t < threads; ++t)
-            workers.emplace_back([&] {
-                for (int tile; (tile = next_tile++) < tiles_x * tiles_y;) render_tile(tile, done, last);
-                --running;
-            });
-        while (running > 0 && options.progress) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-            const double share = std::min(1.0, double(next_tile) / (tiles_x * tiles_y));
-            options.progress((done + share * (last - done)) / options.spp, seconds());
-        }
-        workers.clear();  // joins
-        done = last;
+    PathTracer tracer(scene, options.threads);
+    tracer.start(camera, options);
+    for (int done = 0, pass = 0; done < options.spp; done += pass) {
+        pass = std::min(kPassSpp, options.spp - done);
+        std::function<void(double)> progress;
+        if (options.progress)
+            progress = [&](double share) { options.progress((done + share * pass) / options.spp, seconds()); };
+        tracer.add_samples(pass, {}, progress);
         if (options.max_seconds > 0.0 && seconds() > options.max_seconds) break;
     }
-
-    PathTraceResult result;
-    result.spp = done;
-    result.non_finite = non_finite;
-    for (std::size_t p = 0; p < parts; ++p) {
-        ImageF picture{options.width, options.height, std::vector<glm::vec4>(pixels)};
-        ImageF error = picture;
-        for (std::size_t i = 0; i < pixels; ++i) {
-            const Accumulator& a = accumulators[i * parts + p];
-            const glm::dvec3 mean = a.sum / double(done);
-            const glm::dvec3 variance = glm::max(a.sum_of_squares / double(done) - mean * mean, glm::dvec3(0.0));
-            picture.pixels[i] = glm::vec4(mean, float(covered[i]) / float(done));
-            error.pixels[i] = glm::vec4(done > 1 ? glm::sqrt(variance / double(done - 1)) : glm::dvec3(0.0), 1.0f);
-        }
-        result.pictures.push_back(std::move(picture));
-        result.errors.push_back(std::move(error));
-    }
+    PathTraceResult result = tracer.result();
     result.seconds = seconds();
     return result;
 }

@@ -12,6 +12,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -51,7 +53,34 @@ struct PathTraceResult {
     double seconds = 0.0;
 };
 
-// Throws std::runtime_error on impossible options.
+// The path tracer in passes, for whoever shows pictures before they are done. Every sample of every pixel has random
+// numbers of its own, which follow from seed, pixel and the sample's number alone: n samples in any number of passes are
+// the same picture, bit for bit.
+class PathTracer {
+public:
+    // Builds the acceleration structure. The scene must outlive the tracer and not change. threads 0: all cores.
+    explicit PathTracer(const Scene& scene, int threads = 0);
+    ~PathTracer();
+    PathTracer(PathTracer&&) noexcept;
+    PathTracer& operator=(PathTracer&&) noexcept;
+
+    // Forgets all samples: from here on this camera and these options, of which spp, threads, max_seconds and progress
+    // are not looked at. Throws std::runtime_error on impossible options.
+    void start(const Camera& camera, const PathTraceOptions& options);
+
+    // The next `count` samples of every pixel. False when `stop` came first: then nothing is left, call start again.
+    // `progress` gets the share of this pass that is done, on the calling thread.
+    bool add_samples(int count, const std::stop_token& stop = {}, const std::function<void(double)>& progress = {});
+
+    // What there is so far; seconds stays 0. At least one sample must have been taken.
+    PathTraceResult result() const;
+
+private:
+    struct Work;
+    std::unique_ptr<Work> work_;
+};
+
+// All of it in one call. Throws std::runtime_error on impossible options.
 PathTraceResult path_trace(const Scene& scene, const Camera& camera, const PathTraceOptions& options);
 
 // Mean over the picture and the standard error of that mean (pixels are independent).

@@ -1,6 +1,6 @@
 #version 450 core
 // Finest level: radiance of the voxel's faces, each weighted by its area projected on the axis, one thread a voxel.
-#include "common/pyramid.glsl"
+#include "07_anisotropic_mips/store_light.glsl"
 #include "07_anisotropic_mips/projected_area.glsl"
 #include "common/voxel_counters.glsl"
 #include "common/face_index.glsl"
@@ -10,7 +10,8 @@ layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(std430, binding = 7) readonly buffer VoxelListBuffer { uint voxel_list[]; };
 layout(std430, binding = 10) readonly buffer FaceBuffer { VoxelFace faces[]; };
 layout(std430, binding = 11) readonly buffer RadianceBuffer { vec4 face_radiance[]; };
-layout(rgba16f, binding = 0) writeonly uniform image3D light;
+
+uniform vec2 part;  // of radiance and emission: (1, 0) all, (1, -1) what is reflected, (0, 1) emitted, (0, 0) none
 
 void main()
 {
@@ -21,12 +22,14 @@ void main()
     for (int direction = 0; direction < kFaceCount; ++direction) {
         vec4 sum = vec4(0.0);
         for (uint i = 0u; i < uint(bitCount(face_mask(entry))); ++i) {
-            uint place = (entry >> 6) + i;
-            sum += projected_area(faces[place], direction) * vec4(face_radiance[place].rgb, 1.0);
+            VoxelFace face = faces[(entry >> 6) + i];
+            // Not per face: every direction holds what the direction that the face looks to most would.
+            int seen_from = DIRECTIONS == 0 ? direction : nearest_direction(face.normal.xyz);
+            vec3 radiance = part.x * face_radiance[(entry >> 6) + i].rgb + part.y * face.emission.rgb;
+            sum += projected_area(face, seen_from) / column_weight(voxel, seen_from, 0) * vec4(radiance, 1.0);
         }
-        sum /= column_weight(voxel, direction, 0);
         sum /= max(sum.a, 1.0);  // surfaces behind each other cover no more than the whole
-        imageStore(light, atlas_texel(direction, voxel, 0), nearest_half(min(sum, vec4(65504.0))));
+        store_texel(atlas_texel(direction, voxel, 0), vec4(sum.rgb / light_scale, sum.a));
     }
     // end snippet
 }

@@ -1,13 +1,12 @@
 #version 450 core
 // Next level: of two voxels behind each other the front one hides as much of the back one as must overlap, four columns
 // beside each other are averaged (after Crassin 2011, section 5; Villegas 2016, section 4.6).
-#include "common/pyramid.glsl"
+#include "07_anisotropic_mips/store_light.glsl"
 
 layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
-layout(rgba16f, binding = 0) writeonly uniform image3D light;
 uniform int level;
 
-vec4 finer(int face, ivec3 voxel) { return texelFetch(light_atlas, atlas_texel(face, voxel, level - 1), level - 1); }
+vec4 finer(int face, ivec3 voxel) { return stored_texel(atlas_texel(face, voxel, level - 1), level - 1); }
 
 void main()
 {
@@ -16,12 +15,22 @@ void main()
     int face = voxel.x / size.x;
     voxel.x -= face * size.x;
     if (face >= kFaceCount || any(greaterThanEqual(voxel, size))) return;
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+#if DIRECTIONS == 2
+    // Isotropic, as mipmaps of volumes are usually made: the mean of the eight, whatever hides what.
+    for (int i = 0; i < 8; ++i) {
+        ivec3 child = 2 * voxel + ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        float weight = inside_share(child, 0, level - 1) * inside_share(child, 1, level - 1) *
+                       inside_share(child, 2, level - 1);
+        sum += weight * finer(face, child);
+        weights += weight;
+    }
+#else
     int axis = face >> 1;
     ivec3 along = ivec3(face_normal(face | 1));
     // The side that the face looks to is in front.
     ivec3 to_front = (face & 1) == 1 ? along : ivec3(0), to_back = along - to_front;
-    vec4 sum = vec4(0.0);
-    float weights = 0.0;
     for (int column = 0; column < 4; ++column) {
         ivec3 child = 2 * voxel;
         child[(axis + 1) % 3] += column & 1;
@@ -34,5 +43,6 @@ void main()
         weights += weight;
         // end snippet
     }
-    imageStore(light, atlas_texel(face, voxel, level), nearest_half(sum / weights));
+#endif
+    store_texel(atlas_texel(face, voxel, level), sum / weights);
 }

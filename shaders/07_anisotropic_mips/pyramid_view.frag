@@ -4,6 +4,8 @@
 #include "common/voxel_walk.glsl"
 #include "common/pyramid.glsl"
 
+layout(binding = kEmissionAtlasUnit) uniform sampler3D emission_atlas;
+uniform bool with_emission;  // it has an atlas of its own
 uniform int level;
 uniform int direction;   // 0..5 a face, 6: the side that the ray came in through
 uniform bool show_coverage;
@@ -19,7 +21,9 @@ void main()
     ivec3 axis_of = ivec3(0, 1, 2);
     int axis = int(dot(abs(hit.normal), vec3(axis_of)) + 0.5);
     int face = direction < kFaceCount ? direction : 2 * axis + (hit.normal[axis] > 0.0 ? 1 : 0);
-    vec4 texel = texelFetch(light_atlas, atlas_texel(face, hit.voxel, level), level);
-    vec3 radiance = texel.a > 0.0 ? texel.rgb / texel.a : vec3(0.0);
+    vec4 texel = stored_texel(atlas_texel(face, hit.voxel, level), level);
+    vec3 radiance = texel.a > 0.0 ? light_scale * texel.rgb / texel.a : vec3(0.0);
+    if (with_emission && texel.a > 0.0)
+        radiance += texelFetch(emission_atlas, atlas_texel(face, hit.voxel, level), level).rgb / texel.a;
     color = vec4(show_coverage ? texel.aaa : radiance, 1.0);
 }

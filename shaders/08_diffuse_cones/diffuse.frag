@@ -14,4 +14,7 @@ void main()
     Gathered sum = gather_diffuse(grid_from_scene(surface.position), surface.geometric_normal, surface.normal,
                                   pixel.x + 4 * pixel.y);
     gathered = vec4(sum.mean_radiance, sum.ambient);
+#ifdef COUNT_FETCHES
+    gathered = vec4(float(fetches));
+#endif
 }

@@ -1,14 +1,19 @@
 #version 450 core
-// Indirect specular light of every pixel: one cone along the mirror direction, as wide as the GGX lobe.
+// Indirect specular light of every pixel: a few cones that share the GGX lobe among them.
 #include "common/g_buffer.glsl"
+#include "common/brdf.glsl"
+#include "common/frame.glsl"
 #include "common/cone.glsl"
 
-layout(binding = 16) uniform sampler2D directional_albedo;  // x: n.v, y: roughness; albedo = F0 r + F90 g
+#include "09_specular_cones/specular_surface.glsl"
+
+uniform int specular_cones;
+uniform bool interleave;  // neighbours trace other parts of the lobe and share them
 uniform float lobe_share;
 uniform float start_offset;
-layout(location = 0) out vec4 specular;  // rgb: radiance towards the camera
+layout(location = 0) out vec4 lobe_light;  // rgb: mean radiance in the lobe, a: 1 where there is a lobe
 
-// Half the angle of the cone around the mirror direction that holds the share p of the lobe, seen along the normal.
+// Half the angle around the mirror direction that holds the share p of the lobe, seen along the normal.
 // Microfacet normals: tan^2 = alpha^2 p / (1 - p) (the inverse of Walter et al. 2007, eq. 35); reflection doubles it.
 // snippet: lobe
 float lobe_half_angle(float alpha, float share)
@@ -17,29 +22,67 @@ float lobe_half_angle(float alpha, float share)
 }
 // end snippet
 
+// A normal visible from v, with probability in proportion to its projected area (Heitz 2018, listing 1), in the frame of
+// the surface (z: normal); `disc` is uniform on the unit disc.
+// snippet: visible_normal
+vec3 visible_normal(vec3 v, float alpha, vec2 disc)
+{
+    vec3 vh = normalize(vec3(alpha * v.xy, v.z));
+    float length2 = dot(vh.xy, vh.xy);
+    vec3 t1 = length2 > 0.0 ? vec3(-vh.y, vh.x, 0.0) * inversesqrt(length2) : vec3(1.0, 0.0, 0.0);
+    float s = 0.5 * (1.0 + vh.z);
+    vec2 p = vec2(disc.x, (1.0 - s) * sqrt(max(1.0 - disc.x * disc.x, 0.0)) + s * disc.y);
+    vec3 nh = p.x * t1 + p.y * cross(vh, t1) + sqrt(max(1.0 - dot(p, p), 0.0)) * vh;
+    return normalize(vec3(alpha * nh.xy, max(nh.z, 0.0)));
+}
+// end snippet
+
+// Smith's Lambda for GGX (Heitz 2014, eq. 72).
+float smith_lambda(float cos_theta, float alpha)
+{
+    float cos2 = cos_theta * cos_theta;
+    return 0.5 * (sqrt(1.0 + alpha * alpha * (1.0 - cos2) / cos2) - 1.0);
+}
+
+const float kGoldenAngle = 2.39996323;  // rad
+
 void main()
 {
     GBufferSample surface = read_g_buffer(ivec2(gl_FragCoord.xy));
-    specular = vec4(0.0);
-    if (!surface.covered) return;
-    vec3 view = view_direction(surface.position);
-    // Interpolated and mapped normals may turn away from the eye; nothing can be mirrored there but in the facet itself.
-    vec3 normal = dot(surface.normal, view) > 0.0 ? surface.normal : surface.geometric_normal;
-    float n_dot_v = max(dot(normal, view), 0.0);
-    vec2 table = texture(directional_albedo, vec2(n_dot_v, surface.roughness)).rg;
-    vec3 albedo = surface.f0 * table.x + surface.f90 * table.y;
-    bool reflects = max(albedo.r, max(albedo.g, albedo.b)) > 1e-4;
+    lobe_light = vec4(0.0);
+    if (!surface.covered || !has_lobe(surface)) return;
+    vec3 view = view_direction(surface.position), normal = lobe_normal(surface, view);
+    float n_dot_v = max(dot(normal, view), 1e-3), f0 = max(surface.f0.r, max(surface.f0.g, surface.f0.b));
 
-    // The surface cuts the lobe at its horizon: what is left of it is narrower, and its middle lies higher.
-    vec3 mirrored = reflect(-view, normal);
-    float elevation = asin(min(n_dot_v, 1.0)), half_angle = lobe_half_angle(surface.roughness * surface.roughness, lobe_share);
-    if (half_angle > elevation) {
-        half_angle = 0.5 * (elevation + half_angle);
-        vec3 along = mirrored - dot(mirrored, normal) * normal;
-        mirrored = cos(half_angle) * along / max(length(along), 1e-6) + sin(half_angle) * normal;
+    mat3 frame = frame_around(normal);
+    vec3 v = transpose(frame) * view;
+    float alpha = surface.roughness * surface.roughness, lambda_v = smith_lambda(n_dot_v, alpha);
+    // Of all points of the lobe a pixel takes every 16th, where its neighbours have the others.
+    ivec2 pixel = ivec2(gl_FragCoord.xy) & 3;
+    int count = surface.roughness < kSharp ? 1 : specular_cones;
+    int sets = interleave && surface.roughness >= kShared ? 16 : 1, set = sets == 1 ? 0 : pixel.x + 4 * pixel.y;
+    float tan_half = tan(lobe_half_angle(alpha, lobe_share) / sqrt(float(count * sets)));
+    vec3 position = grid_from_scene(surface.position);
+    vec4 sum = vec4(0.0);
+    // snippet: specular_cones
+    for (int i = 0; i < count; ++i) {
+        // Points of equal shares of the disc (Vogel 1979); a single one is its middle, the mirror direction.
+        int point = i * sets + set;
+        float r = count * sets == 1 ? 0.0 : sqrt((float(point) + 0.5) / float(count * sets));
+        float phi = float(point) * kGoldenAngle;
+        vec3 h = visible_normal(v, alpha, r * vec2(cos(phi), sin(phi)));
+        vec3 l = reflect(-v, h), direction = frame * l;
+        if (l.z <= 0.0 || dot(direction, surface.geometric_normal) <= 0.0) continue;
+        // What visible normals leave of the estimator is G2 / G1 (Heitz 2018, eq. 19), times Fresnel (Schlick 1994).
+        float fresnel = schlick_fresnel(vec3(f0), surface.f90, dot(v, h)).r;
+        float weight = fresnel * (1.0 + lambda_v) / (1.0 + lambda_v + smith_lambda(l.z, alpha));
+        Cone cone = cone_above(position, surface.geometric_normal, start_offset, direction, tan_half);
+        ConeLight light = trace_cone(cone, cone_end(cone));
+        sum += weight * vec4(light.radiance + light.transmittance * sky_radiance, 1.0);
     }
-    Cone cone = cone_above(grid_from_scene(surface.position), surface.geometric_normal, start_offset, mirrored,
-                           tan(half_angle));
-    ConeLight light = trace_cone(cone, reflects ? cone_end(cone) : 0.0);
-    if (reflects) specular = vec4(albedo * (light.radiance + light.transmittance * sky_radiance), 1.0);
+    // end snippet
+    lobe_light = vec4(sum.rgb / max(sum.a, 1e-6), 1.0);
+#ifdef COUNT_FETCHES
+    lobe_light = vec4(float(fetches));
+#endif
 }

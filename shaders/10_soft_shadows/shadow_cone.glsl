@@ -26,9 +26,9 @@ vec3 coverage_of(vec3 texel, vec3 size, vec3 faces, int level)
 {
     vec3 u = (texel.x / size.x + vec3(0.0, 2.0, 4.0) + faces) / 6.0;
     vec2 vw = texel.yz / size.yz;
-    return vec3(textureLod(light_atlas, vec3(u.x, vw), float(level)).a,
-                textureLod(light_atlas, vec3(u.y, vw), float(level)).a,
-                textureLod(light_atlas, vec3(u.z, vw), float(level)).a);
+    return vec3(stored_coverage(vec3(u.x, vw), float(level)),
+                stored_coverage(vec3(u.y, vw), float(level)),
+                stored_coverage(vec3(u.z, vw), float(level)));
 }
 
 // The same, half a voxel before and half a voxel behind the point on the face's own axis, summed.
@@ -38,9 +38,9 @@ vec3 column_of(vec3 texel, vec3 size, vec3 faces, int level)
     vec2 vw = texel.yz / size.yz;
     float l = float(level), x = half_texel.x / 6.0;
     vec2 y = vec2(half_texel.y, 0.0), z = vec2(0.0, half_texel.z);
-    return vec3(textureLod(light_atlas, vec3(u.x - x, vw), l).a + textureLod(light_atlas, vec3(u.x + x, vw), l).a,
-                textureLod(light_atlas, vec3(u.y, vw - y), l).a + textureLod(light_atlas, vec3(u.y, vw + y), l).a,
-                textureLod(light_atlas, vec3(u.z, vw - z), l).a + textureLod(light_atlas, vec3(u.z, vw + z), l).a);
+    return vec3(stored_coverage(vec3(u.x - x, vw), l) + stored_coverage(vec3(u.x + x, vw), l),
+                stored_coverage(vec3(u.y, vw - y), l) + stored_coverage(vec3(u.y, vw + y), l),
+                stored_coverage(vec3(u.z, vw - z), l) + stored_coverage(vec3(u.z, vw + z), l));
 }
 
 // What a point of the ray's way tells of the surfaces there.

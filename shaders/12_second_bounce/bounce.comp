@@ -2,6 +2,9 @@
 // Half of a bounce: every occupied face gathers the light of the pyramid as pixels do, E / pi = sum_i W_i L_i(k - 1).
 #include "common/voxel_counters.glsl"
 #include "common/diffuse_gather.glsl"
+#if EMITTED
+#include "common/emitters.glsl"
+#endif
 
 layout(local_size_x = 64) in;
 layout(std430, binding = 8) readonly buffer FaceListBuffer { uint face_list[]; };
@@ -19,6 +22,10 @@ void main()
     int axis = int(face_list[place] >> 27) >> 1;
     int neighbour = voxel[(axis + 1) % 3] + 4 * voxel[(axis + 2) % 3];
     vec3 normal = face.normal.xyz;
-    gathered[place] = vec4(gather_diffuse(face.position.xyz, normal, normal, neighbour).mean_radiance, 0.0);
+    vec3 mean_radiance = gather_diffuse(face.position.xyz, normal, normal, neighbour).mean_radiance;
+#if EMITTED
+    mean_radiance += gather_emitters(face.position.xyz, normal, normal, neighbour);
+#endif
+    gathered[place] = vec4(mean_radiance, 0.0);
     // end snippet
 }

@@ -5,6 +5,23 @@
 layout(binding = kDirectionVolumeUnit) uniform sampler3D direction_volume[6];
 #endif
 
+// EMITTED: what surfaces emit has an atlas of its own, beside that of what they reflect, and of an emitter far away cones
+// gather a part only; the rest is aimed at (chapter 11).
+#if EMITTED
+layout(binding = kEmissionAtlasUnit) uniform sampler3D emission_atlas;
+uniform float near_radius2;  // voxels squared
+// Power heuristic (Veach 1997, 9.2.2.2) of the densities n / pi of cones and n t^2 / A of parts of an emitter of area
+// A = pi r^2, without the cosines, of which neither knows both; moved so that it ends, at 2.6 r.
+float near_share(float t)
+{
+    const float kEnd = 0.02;
+    float q = t * t / near_radius2;
+    return max((1.0 / (1.0 + q * q) - kEnd) / (1.0 - kEnd), 0.0);
+}
+#else
+float near_share(float t) { return 1.0; }
+#endif
+
 uniform float step_factor;        // step over the diameter of the cone, or over a voxel where the cone is thinner
 uniform float ao_falloff;         // 1/m, lambda of ambient occlusion
 uniform vec3 sky_radiance;        // W/(sr m^2), what leaves the grid sees
@@ -14,7 +31,8 @@ struct Cone {
     vec3 origin;      // grid space
     vec3 direction;   // unit
     float tan_half;   // tangent of half the aperture
-    vec3 sheet_axis;  // the axis of the surface that it starts from, times how much of a thin sheet this is; 0 otherwise
+    vec3 normal;      // of the surface that it starts from
+    vec3 sheet_axis;  // the axis of that surface, times how much of a thin sheet it is; 0 otherwise
 };
 
 struct ConeLight {
@@ -23,24 +41,73 @@ struct ConeLight {
     float ambient;        // occlusion weighted by 1 / (1 + lambda r), 0..1
 };
 
-vec4 fetch(int face, vec3 p, vec3 size, int level)
+#ifdef COUNT_FETCHES
+uint fetches = 0u;  // from textures, by this invocation: chapter 14
+#endif
+
+void count_fetches(int count)
 {
+#ifdef COUNT_FETCHES
+    fetches += uint(count);
+#endif
+}
+
+// snippet: fetch
+// `with_emission`: a constant; `near`: share of what is emitted that counts, where it is kept apart.
+vec4 fetch(int face, vec3 p, vec3 size, int level, bool with_emission, float near)
+{
+    vec3 uvw = vec3((p.x / size.x + float(face)) / 6.0, p.yz / size.yz);
+    count_fetches(kFetchesPerTexel);
+#if PLAIN
+    vec4 light = vec4(0.0);
+    for (int i = 0; i < 6; ++i)
+        if (i == face) light = textureLod(direction_volume[i], p / size, float(level));
+#else
+    vec4 light = stored_light(uvw, float(level));
+#endif
+#if EMITTED
+    if (!with_emission) return light;
+    count_fetches(1);
+    light.rgb += near / light_scale * textureLod(emission_atlas, uvw, float(level)).rgb;
+#endif
+    return light;
+}
+// end snippet
+
+// Coverage alone; p in voxels of the level.
+float fetch_coverage(int face, vec3 p, vec3 size, int level)
+{
+    count_fetches(1);
 #if PLAIN
     for (int i = 0; i < 6; ++i)
-        if (i == face) return textureLod(direction_volume[i], p / size, float(level));
-    return vec4(0.0);
+        if (i == face) return textureLod(direction_volume[i], p / size, float(level)).a;
+    return 0.0;
 #else
-    return textureLod(light_atlas, vec3((p.x / size.x + float(face)) / 6.0, p.yz / size.yz), float(level));
+    return stored_coverage(vec3((p.x / size.x + float(face)) / 6.0, p.yz / size.yz), float(level));
 #endif
 }
 
 // How far outside the bounds, in level voxels, the walls of the other axes still count.
 const float kCornerMargin = 0.2;
 
+// A slanted surface shows some of its faces to a cone that leaves it: those across the axes along which the cone goes back
+// (n_a d_a < 0). Exactly, n.d > 0, it shows nothing. How much of it is at a place is known from its faces across the axis
+// b that the normal is nearest to of those along which the cone goes forward: coverage A_b = s |n_b|, so s |n_a| on the
+// others. Share of the coverage `met` that is not the surface's own.
+vec3 not_own(vec3 met, vec3 normal, vec3 direction, vec3 p, vec3 size, int level)
+{
+    vec3 forward = normal * direction, n = abs(normal) * step(0.0, forward);
+    int b = n.x >= n.y && n.x >= n.z ? 0 : n.y >= n.z ? 1 : 2;
+    float s = fetch_coverage(2 * b + (normal[b] > 0.0 ? 1 : 0), p, size, level) / max(n[b], 0.1);
+    vec3 own = s * abs(normal) * step(forward, vec3(0.0));
+    return clamp(1.0 - own / max(met, vec3(1e-4)), 0.0, 1.0);
+}
+
 // What a cone meets in a voxel's length: the three faces that look against the direction, each by |d_a|, since what
 // oriented surfaces cover goes with their projected area (Jakob et al. 2010, section 3). a: coverage, rgb: radiance
-// premultiplied with it. `axes`: 1 for those that count.
-vec4 sample_level(vec3 position, vec3 direction, int level, vec3 axes)
+// premultiplied with it. `axes`: 1 for those that count; `leaving`, a constant: the cone is still in the blur of its own
+// surface; `with_emission` and `near` as above.
+vec4 sample_level(vec3 position, Cone cone, int level, vec3 axes, bool leaving, bool with_emission, float near)
 {
     float voxel = float(1 << level);
     vec3 size = vec3(level_size(level));
@@ -60,11 +127,14 @@ vec4 sample_level(vec3 position, vec3 direction, int level, vec3 axes)
     // Along its own axis what lies on the bounds fades out beyond them as in any linear filter, so that its coverages add
     // up to what it covers.
     vec3 outside = max(max(grid.content_min.xyz - position, position - grid.content_max.xyz), vec3(0.0)) / voxel;
-    vec3 weight = axes * abs(direction) * max(1.0 - outside, vec3(0.0)) * inside.yzx * inside.zxy;
-    ivec3 face = ivec3(0, 2, 4) + ivec3(lessThan(direction, vec3(0.0)));
-    return weight.x * fetch(face.x, vec3(across.x, p.yz), size, level) +
-           weight.y * fetch(face.y, vec3(p.x, across.y, p.z), size, level) +
-           weight.z * fetch(face.z, vec3(p.xy, across.z), size, level);
+    vec3 weight = axes * abs(cone.direction) * max(1.0 - outside, vec3(0.0)) * inside.yzx * inside.zxy;
+    ivec3 face = ivec3(0, 2, 4) + ivec3(lessThan(cone.direction, vec3(0.0)));
+    vec4 x = fetch(face.x, vec3(across.x, p.yz), size, level, with_emission, near);
+    vec4 y = fetch(face.y, vec3(p.x, across.y, p.z), size, level, with_emission, near);
+    vec4 z = fetch(face.z, vec3(p.xy, across.z), size, level, with_emission, near);
+    if (leaving && cone.normal != vec3(0.0))
+        weight *= not_own(vec3(x.a, y.a, z.a), cone.normal, cone.direction, p, size, level);
+    return weight.x * x + weight.y * y + weight.z * z;
 }
 
 const float kBlur = 1.5;  // voxels of a level to either side that a surface may be blurred over
@@ -104,7 +174,9 @@ void close_at_bounds(Cone cone, inout ConeLight light)
                          greaterThan(cone.direction, vec3(0.0)));
     vec3 a = abs(to_bounds);
     vec3 axis = a.x <= a.y && a.x <= a.z ? vec3(1, 0, 0) : a.y <= a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
-    vec4 wall = sample_level(position, mix(vec3(-1.0), vec3(1.0), greaterThan(cone.direction, vec3(0.0))), level, axis);
+    Cone across = cone;
+    across.direction = mix(vec3(-1.0), vec3(1.0), greaterThan(cone.direction, vec3(0.0)));
+    vec4 wall = sample_level(position, across, level, axis, false, true, near_share(exit));
     float stopped = light.transmittance * smoothstep(kClosed, 1.0, wall.a);
     light.radiance += wall.rgb * (stopped / max(wall.a, 1e-6));
     light.ambient += stopped / (1.0 + ao_falloff * exit * grid.origin.w);
@@ -114,32 +186,50 @@ void close_at_bounds(Cone cone, inout ConeLight light)
 // Steps meet a wall's coverage with an error of up to a tenth: what is left of a cone after that is no gap.
 const float kNearlyStopped = 0.1;
 
-// March along the axis in steps as long as the cone is wide.
-// snippet: trace_cone
-ConeLight trace_cone(Cone cone, float end)
+// March along the axis in steps as long as the cone is wide, from t to the end of one part of the way. Fetches that only
+// one part needs are left out of the loops of the others: a branch would be taken by all pixels of a group.
+void march(inout ConeLight light, inout float t, Cone cone, float end, bool leaving, bool with_emission)
 {
-    ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0);
-    float rise = dot(cone.sheet_axis, abs(cone.direction));
-    for (float t = 0.0; t < end && light.transmittance > 0.0;) {
-        float stride = min(max(2.0 * t * cone.tan_half, 1.0) * step_factor, end - t + 1e-3), middle = t + 0.5 * stride;
+    float rise = dot(cone.sheet_axis, abs(cone.direction)), leave = dot(cone.normal, cone.direction);
+    while (t < end && light.transmittance > 0.0) {
+        float width = max(2.0 * t * cone.tan_half, 1.0);
+        if (leaving && t * leave > kBlur * 2.0 * width || with_emission && !leaving && near_share(t) == 0.0) break;
+        // snippet: march
+        float stride = min(width * step_factor, end - t + 1e-3), middle = t + 0.5 * stride;
         float lod = log2(max(2.0 * middle * cone.tan_half, 1.0));
         int level = min(int(lod), grid.size.w - 1), next = min(level + 1, grid.size.w - 1);
-        float blend = lod - float(level);
+        float blend = lod - float(level), near = near_share(middle);
         vec3 position = cone.origin + cone.direction * middle;
         vec3 axes = 1.0 - cone.sheet_axis * step(middle * rise, kBlur * float(1 << next));
-        vec4 met = (1.0 - blend) * stride / float(1 << level) * sample_level(position, cone.direction, level, axes) +
-                   blend * stride / float(1 << next) * sample_level(position, cone.direction, next, axes);
+        vec4 met = (1.0 - blend) * stride / float(1 << level) *
+                       sample_level(position, cone, level, axes, leaving, with_emission, near) +
+                   blend * stride / float(1 << next) *
+                       sample_level(position, cone, next, axes, leaving, with_emission, near);
         float stopped = stopped_share(met.a, light.transmittance);
         if (light.transmittance - stopped < kNearlyStopped) stopped = light.transmittance;
         light.radiance += met.rgb * (stopped / max(met.a, 1e-6));
         light.ambient += stopped / (1.0 + ao_falloff * middle * grid.origin.w);
         light.transmittance -= stopped;
         t += stride;
+        // end snippet
     }
-    // end snippet
+}
+
+// snippet: trace_cone
+ConeLight trace_cone(Cone cone, float end)
+{
+    ConeLight light = ConeLight(vec3(0.0), 1.0, 0.0);
+    float t = 0.0;
+    march(light, t, cone, end, true, true);    // out of the blur of its own surface
+#if EMITTED
+    march(light, t, cone, end, false, true);   // while emitters count
+#endif
+    march(light, t, cone, end, false, false);
     close_at_bounds(cone, light);
+    light.radiance *= light_scale;
     return light;
 }
+// end snippet
 
 // A cone above a surface. It starts `offset` voxels beyond the middle of the surface's own voxel along the axis that the
 // normal is nearest to. A thin sheet has a face on its other side in the same voxel; the cone leaves it out until it has
@@ -154,8 +244,8 @@ Cone cone_above(vec3 position_grid, vec3 geometric_normal, float offset, vec3 di
     float from_middle = dot(axis, voxel_middle - position_grid);
     vec3 origin = position_grid + geometric_normal * (from_middle / along + offset / abs(along));
     int back = int(dot(axis, vec3(0.0, 2.0, 4.0))) + (along > 0.0 ? 0 : 1);
-    float sheet = fetch(back, voxel_middle, vec3(level_size(0)), 0).a;
-    return Cone(origin, direction, tan_half, sheet * axis);
+    float sheet = fetch_coverage(back, voxel_middle, vec3(level_size(0)), 0);
+    return Cone(origin, direction, tan_half, geometric_normal, sheet * axis);
 }
 
 // Cones end where they have left the bounds by their own width: a wall there has then been passed wholly.

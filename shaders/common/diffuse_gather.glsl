@@ -23,7 +23,10 @@ Gathered gather_diffuse(vec3 position_grid, vec3 geometric_normal, vec3 normal, 
     Gathered sum = Gathered(vec3(0.0), 1.0);
     for (int i = 0; i < cone_count; ++i) {
         vec4 axis = cones[first + i];
-        Cone cone = cone_above(position_grid, geometric_normal, start_offset, frame * axis.xyz, tan_half_aperture);
+        vec3 direction = frame * axis.xyz;
+        // Nothing comes from below the surface, whatever its shading normal says.
+        if (dot(direction, geometric_normal) <= 0.0) continue;
+        Cone cone = cone_above(position_grid, geometric_normal, start_offset, direction, tan_half_aperture);
         ConeLight light = trace_cone(cone, cone_end(cone));
         sum.mean_radiance += axis.w * (light.radiance + light.transmittance * sky_radiance);
         sum.ambient -= axis.w * light.ambient;

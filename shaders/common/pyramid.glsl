@@ -3,9 +3,30 @@
 // One atlas, rgba16f, holds the six side by side along x, for every level: texel (face * size.x + x, y, z).
 //   a    A: share of the voxel's cross-section that surfaces facing `face` cover, 0..1
 //   rgb  A L: their mean radiance L, W/(sr m^2), premultiplied with the coverage
+// In eight bits rgb is a share of light_scale; with SPLIT_COVERAGE, where the format has no room for A, an atlas of its
+// own holds it.
 #include "common/voxel_grid.glsl"
 
 layout(binding = kLightAtlasUnit) uniform sampler3D light_atlas;
+layout(std140, binding = 4) uniform PyramidBlock { float light_scale; };  // W/(sr m^2), 1 for formats that need none
+#ifdef SPLIT_COVERAGE
+const int kFetchesPerTexel = 2;
+layout(binding = kCoverageAtlasUnit) uniform sampler3D coverage_atlas;
+vec4 stored_texel(ivec3 texel, int level)
+{
+    return vec4(texelFetch(light_atlas, texel, level).rgb, texelFetch(coverage_atlas, texel, level).r);
+}
+vec4 stored_light(vec3 uvw, float level)
+{
+    return vec4(textureLod(light_atlas, uvw, level).rgb, textureLod(coverage_atlas, uvw, level).r);
+}
+float stored_coverage(vec3 uvw, float level) { return textureLod(coverage_atlas, uvw, level).r; }
+#else
+const int kFetchesPerTexel = 1;
+vec4 stored_texel(ivec3 texel, int level) { return texelFetch(light_atlas, texel, level); }
+vec4 stored_light(vec3 uvw, float level) { return textureLod(light_atlas, uvw, level); }
+float stored_coverage(vec3 uvw, float level) { return textureLod(light_atlas, uvw, level).a; }
+#endif
 
 ivec3 level_size(int level) { return grid.size.xyz >> level; }
 ivec3 atlas_texel(int face, ivec3 voxel, int level) { return ivec3(face * level_size(level).x, 0, 0) + voxel; }

@@ -16,10 +16,12 @@ struct GridData {
 
 // Texture units of the volumes.
 CONEBOOK_CONSTANT int kLightAtlasUnit = 20;
+CONEBOOK_CONSTANT int kCoverageAtlasUnit = 21;
 CONEBOOK_CONSTANT int kOccupancyUnit = 22;
 CONEBOOK_CONSTANT int kFaceIndexUnit = 23;
 CONEBOOK_CONSTANT int kPackedColorUnit = 24;
 CONEBOOK_CONSTANT int kDirectionVolumeUnit = 24;  // six units
+CONEBOOK_CONSTANT int kEmissionAtlasUnit = 30;
 
 // Face directions: 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z. A triangle belongs to the face that its normal is nearest to.
 CONEBOOK_CONSTANT int kFaceCount = 6;
@@ -30,6 +32,13 @@ struct VoxelFace {
     vec4 normal;       // xyz: unit mean normal
     vec4 emission;     // rgb: radiance W/(sr m^2)
     vec4 position;     // xyz: centroid in grid space
+};
+
+// A part of the emitting surfaces, that cones are aimed at.
+struct EmitterPart {
+    vec4 position;   // xyz: grid space; w: radius of a disc of the part's area, voxels, squared
+    vec4 normal;     // xyz: unit
+    vec4 intensity;  // rgb: radiance times area, W/(sr m^2) x voxel sides squared
 };
 
 // Sums of one face as 64-bit fixed point numbers: word i is the low half of sum i, word kSumCount + i its high half,

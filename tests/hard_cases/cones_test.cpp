@@ -2,7 +2,6 @@
 // walls as thin as a voxel and thinner, and parameters at their limits. One bounce: tests/08_diffuse_cones_test.cpp.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,12 +16,6 @@
 
 namespace conebook {
 namespace {
-
-std::filesystem::path asset(const std::string& name)
-{
-    const char* root = std::getenv("CONEBOOK_ROOT");
-    return std::filesystem::path(root != nullptr ? root : ".") / "assets" / (name + ".glb");
-}
 
 ImageF render(const std::filesystem::path& scene, const std::string& set, const std::string& more = "")
 {
@@ -116,7 +109,7 @@ TEST(Extremes, ParametersAtTheirLimitsGiveFiniteAndBoundedLight)
     for (const char* set :
          {"aperture=0.1", "aperture=179", "step=0.05 voxels=16", "step=4", "start_offset=0", "start_offset=8",
           "lobe_share=0.1", "lobe_share=0.95", "cones=5", "cones=32 interleave=off", "cone_table=thesis", "voxels=4",
-          "light_radius=10 shadows=cone", "light_angle=60 shadows=volume", "isotropic=on"}) {
+          "light_radius=10 shadows=cone", "light_angle=60 shadows=volume", "directions=isotropic"}) {
         const bool has_voxels = std::string(set).find("voxels") != std::string::npos;
         const ImageF image =
             render(asset("cornell_box"), std::string(has_voxels ? "" : "voxels=32 ") + "bounces=2 " + set);

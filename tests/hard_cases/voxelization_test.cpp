@@ -317,7 +317,7 @@ TEST(Voxelization, FarAwayAndScaled)
         gltf.add_node({{"mesh", 0},
                        {"scale", {scale, scale, scale}},
                        {"translation", {translation.x, translation.y, translation.z}}});
-        const test::TemporaryFolder folder;
+        const TemporaryFolder folder;
         return load_scene(test::write_file(folder.path() / "soup.glb", gltf.glb()));
     };
     const auto voxels_of = [&](const Scene& scene) {

@@ -17,32 +17,11 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/scene.hpp"
+#include "temporary_folder.hpp"
 
 namespace conebook::test {
 
 using nlohmann::json;
-
-// A folder of its own under the system's temporary folder, removed at the end.
-class TemporaryFolder {
-public:
-    TemporaryFolder()
-    {
-        std::string pattern = (std::filesystem::temp_directory_path() / "conebook_gltf_XXXXXX").string();
-        if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a temporary folder");
-        path_ = pattern;
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    ~TemporaryFolder()
-    {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 inline std::filesystem::path write_file(const std::filesystem::path& file, const std::string& bytes)
 {

@@ -15,30 +15,21 @@
 namespace conebook {
 namespace {
 
-std::filesystem::path folder_of(const char* variable)
+// Not the repository's.
+std::filesystem::path scene_folder()
 {
-    const char* value = std::getenv(variable);
-    return value != nullptr ? value : "";
+    const char* shared = std::getenv("CONEBOOK_SHARED");
+    return std::filesystem::path(shared != nullptr ? shared : "") / "scenes";
 }
 
 std::vector<std::filesystem::path> scenes()
 {
     std::vector<std::filesystem::path> files;
     std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_of("CONEBOOK_SHARED") / "scenes", error))
+    for (const auto& entry : std::filesystem::directory_iterator(scene_folder(), error))
         if (entry.path().extension() == ".glb") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
-}
-
-std::vector<std::string> chapters()
-{
-    std::vector<std::string> names;
-    std::error_code error;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_of("CONEBOOK_ROOT") / "chapters", error))
-        if (std::filesystem::exists(entry.path() / "main.cpp")) names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
 }
 
 void expect_a_picture(const std::string& program, const std::filesystem::path& scene, const std::string& set)
@@ -76,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(Shared, RealScene, testing::ValuesIn(scenes()),
 
 TEST(Sponza, GoesThroughEveryChapter)
 {
-    const std::filesystem::path sponza = folder_of("CONEBOOK_SHARED") / "scenes" / "sponza_crytek.glb";
+    const std::filesystem::path sponza = scene_folder() / "sponza_crytek.glb";
     if (!std::filesystem::exists(sponza)) GTEST_SKIP() << sponza << " is not there; set CONEBOOK_SHARED";
     ASSERT_FALSE(chapters().empty());
     for (const std::string& chapter : chapters())

@@ -117,6 +117,14 @@ call -- run compare a.exr b.exr
 check "compare" "compare a.exr b.exr" "$(program_calls)"
 call -- run reference --spp 4
 check "reference" "reference --spp 4" "$(program_calls)"
+fake python3 ''
+call -- run ladder --bounces 2
+check_has "the ladder builds its programs" '^ninja .* reference compare 12_second_bounce$' "$log"
+check_has "the ladder" "^python3 $repository/tools/ladder.py --bin $repository/build/bin --bounces 2\$" "$log"
+call -- run report --quick --no-figures
+check_has "report builds what it measures" '^ninja .* 14_speed_against_error 12_second_bounce reference compare sheet$' "$log"
+check_has "report" "^python3 $repository/tools/report.py --quick --no-figures\$" "$log"
+rm "$work/fakes/python3"
 call -- run 07 --set bad=1
 check "the program's code" 3 "$code"
 check_has "the program's message" '^bad: no such thing$' "$err"
