@@ -41,6 +41,7 @@ public:
         PyramidParams pyramid_params;
         pyramid_params.format = int(format);
         LightPyramid pyramid(shaders, lit_.grid, pyramid_params);
+        pyramid.prepare(lit_.grid, lit_.faces);
         pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance());
         GBuffer g_buffer(shaders, {8, 8});
         g_buffer.draw(lit_.scene, camera_data(at_point({0.03f, 0.8f, 0.03f}, {0.03f, 0.0f, 0.03f}), g_buffer.size()));

@@ -21,7 +21,7 @@ struct LitScene : VoxelScene {
     {
         shadow_maps.draw(scene);
         average();
-        pyramid.clear();
+        pyramid.prepare(grid, faces);
         shading.run(scene, grid, voxelizer, faces, shadow_maps);
         pyramid.run(grid, faces, shading.radiance());
     }

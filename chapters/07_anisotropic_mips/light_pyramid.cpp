@@ -33,10 +33,64 @@ gl::Defines storing_defines(const PyramidParams& params)
 
 }  // namespace
 
+OccupiedLevels::OccupiedLevels(gl::Shaders& shaders)
+    : parents_(shaders.load({"07_anisotropic_mips/occupied_parents.comp"}))
+{
+}
+
+void OccupiedLevels::run(const VoxelGrid& grid, const VoxelFaces& faces)
+{
+    // No level has more occupied voxels than the one below, or than it has voxels.
+    const GLuint voxels = faces.counted().voxels;
+    const auto cells = [&](int level) {
+        const glm::ivec3 size = grid.size() >> level;
+        return std::size_t(size.x) * std::size_t(size.y) * std::size_t(size.z);
+    };
+    std::size_t total = 0;
+    begin_.assign(1, 0);
+    for (int level = 1; level < grid.levels(); ++level) {
+        begin_.push_back(GLuint(total));
+        total += std::min<std::size_t>(voxels, cells(level));
+    }
+    lists_ = gl::Buffer("occupied voxels of all levels", std::max<std::size_t>(total, 1) * sizeof(GLuint));
+    std::vector<glm::uvec4> levels(std::size_t(grid.levels()), glm::uvec4(0, 1, 1, 0));
+    levels[0] = {gl::group_count(voxels, 64), 1, 1, voxels};
+    levels_ = gl::Buffer("occupied voxels by level", levels);
+    const gl::Buffer claimed("claimed voxels", (cells(1) / 32 + 1) * sizeof(GLuint));
+
+    grid.bind();
+    for (int level = 1; level < grid.levels(); ++level) {
+        claimed.clear();
+        claimed.bind(GL_SHADER_STORAGE_BUFFER, 14);
+        (level == 1 ? faces.voxel_list() : lists_).bind(GL_SHADER_STORAGE_BUFFER, 7);
+        parents_.set("finer_begin", begin_[std::size_t(level - 1)]);
+        lists_.bind(GL_SHADER_STORAGE_BUFFER, 12);
+        levels_.bind(GL_SHADER_STORAGE_BUFFER, 13);
+        parents_.set("level", level);
+        parents_.set("begin", begin_[std::size_t(level)]);
+        parents_.use();
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, levels_.id());
+        glDispatchComputeIndirect(GLintptr(std::size_t(level - 1) * sizeof(glm::uvec4)));
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    }
+}
+
+void OccupiedLevels::dispatch(const gl::Program& program, int level) const
+{
+    lists_.bind(GL_SHADER_STORAGE_BUFFER, 12);
+    levels_.bind(GL_SHADER_STORAGE_BUFFER, 13);
+    program.set("level", level);
+    program.set("begin", begin_[std::size_t(level)]);
+    program.use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, levels_.id());
+    glDispatchComputeIndirect(GLintptr(std::size_t(level) * sizeof(glm::uvec4)));
+}
+
 LightPyramid::LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params)
     : format_(LightFormat(params.format)),
       base_(shaders.load({"07_anisotropic_mips/light_base.comp"}, storing_defines(params))),
       next_level_(shaders.load({"07_anisotropic_mips/light_level.comp"}, storing_defines(params))),
+      occupied_(shaders),
       scale_("light scale", std::vector{glm::vec4(1.0f)})
 {
     constexpr GLenum kFormats[] = {GL_RGBA16F, GL_RGBA8, GL_R11F_G11F_B10F};
@@ -48,13 +102,13 @@ LightPyramid::LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const Py
         coverage_ = gl::texture_3d("coverage pyramid", GL_R8, size, grid.levels());
         coverage_.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
     }
-    clear();
 }
 
-void LightPyramid::clear() const
+void LightPyramid::prepare(const VoxelGrid& grid, const VoxelFaces& faces)
 {
     light_.clear();
     if (coverage_) coverage_.clear();
+    occupied_.run(grid, faces);
 }
 
 void LightPyramid::bind() const
@@ -97,15 +151,10 @@ void LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
     glDispatchComputeIndirect(0);
     glMemoryBarrier(kWrittenImage);
 
-    // Each level from the one below.
-    next_level_.use();
+    // Each level from the one below, where there is something.
     for (int level = 1; level < grid.levels(); ++level) {
         bind_level(level);
-        next_level_.set("level", level);
-        glm::ivec3 size = grid.size() >> level;
-        size.x *= shared::kFaceCount;
-        const glm::ivec3 groups = (size + 3) / 4;
-        glDispatchCompute(GLuint(groups.x), GLuint(groups.y), GLuint(groups.z));
+        occupied_.dispatch(next_level_, level);
         glMemoryBarrier(kWrittenImage);
     }
 }

@@ -23,12 +23,28 @@ struct PyramidParams {
 };
 void add_parameters(ParameterTable& table, PyramidParams& params);
 
+// The voxels of each level that hold something, so that time follows them and not the number of all voxels.
+class OccupiedLevels {
+public:
+    explicit OccupiedLevels(gl::Shaders& shaders);
+    void run(const VoxelGrid& grid, const VoxelFaces& faces);
+    // For shaders that include occupied_levels.glsl: storage 12 and 13, uniforms level and begin; then one work item for
+    // each voxel of the level >= 1.
+    void dispatch(const gl::Program& program, int level) const;
+    const gl::Buffer& lists() const { return lists_; }
+
+private:
+    gl::Program parents_;
+    gl::Buffer lists_, levels_;
+    std::vector<GLuint> begin_;  // of each level's part of the lists
+};
+
 class LightPyramid {
 public:
     LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params);
 
-    // Empty all levels: needed when other voxels become occupied.
-    void clear() const;
+    // Needed when other voxels become occupied, before run(): empties all levels and lists what they will hold.
+    void prepare(const VoxelGrid& grid, const VoxelFaces& faces);
     // All levels from `face_radiance` (vec4 a face: rgb in W/(sr m^2)), emission included.
     void run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& face_radiance,
              LightPart part = LightPart::all);
@@ -42,12 +58,16 @@ public:
     const gl::Texture& light() const { return light_; }
     // r8 of the same size, of format r11g11b10f alone.
     const gl::Texture& coverage() const { return coverage_; }
-    std::vector<gl::Resource> resources() const { return {light_.resource(), coverage_.resource()}; }
+    std::vector<gl::Resource> resources() const
+    {
+        return {light_.resource(), coverage_.resource(), occupied_.lists().resource()};
+    }
 
 private:
     void bind_level(int level) const;
     LightFormat format_;
     gl::Program largest_radiance_, base_, next_level_;
+    OccupiedLevels occupied_;
     gl::Texture light_, coverage_;
     gl::Buffer scale_;
 };

@@ -28,7 +28,7 @@ void LitVoxels::run(App& app, const GpuScene& scene, const ShadowMaps& shadow_ma
         // Triangles -> occupied voxels -> mean material of their faces.
         app.pass("voxelize", [&] { voxelizer_.run(scene, grid_); });
         app.pass("average", [&] { faces_.run(scene, grid_, voxelizer_); });
-        pyramid_.clear();
+        pyramid_.prepare(grid_, faces_);
     }
     // Material and lights -> radiance of the faces -> radiance of all levels.
     app.pass("voxel shading", [&] { shading_.run(scene, grid_, voxelizer_, faces_, shadow_maps); });

@@ -70,7 +70,7 @@ Emitters::Emitters(gl::Shaders& shaders, const Scene& scene, const VoxelGrid& gr
 void Emitters::run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading)
 {
     if (!apart_) return;
-    pyramid_->clear();
+    pyramid_->prepare(grid, faces);
     pyramid_->run(grid, faces, shading.radiance(), LightPart::emitted);
 
     const auto means = faces.faces().read<shared::VoxelFace>();

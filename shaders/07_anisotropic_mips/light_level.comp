@@ -2,19 +2,16 @@
 // Next level: of two voxels behind each other the front one hides as much of the back one as must overlap, four columns
 // beside each other are averaged (after Crassin 2011, section 5; Villegas 2016, section 4.6).
 #include "07_anisotropic_mips/store_light.glsl"
+#include "07_anisotropic_mips/occupied_levels.glsl"
 
-layout(local_size_x = 4, local_size_y = 4, local_size_z = 4) in;
+layout(local_size_x = 64) in;
 uniform int level;
+uniform uint begin;  // of the level's part of the list
 
 vec4 finer(int face, ivec3 voxel) { return stored_texel(atlas_texel(face, voxel, level - 1), level - 1); }
 
-void main()
+vec4 filtered(int face, ivec3 voxel)
 {
-    ivec3 size = level_size(level);
-    ivec3 voxel = ivec3(gl_GlobalInvocationID);
-    int face = voxel.x / size.x;
-    voxel.x -= face * size.x;
-    if (face >= kFaceCount || any(greaterThanEqual(voxel, size))) return;
     vec4 sum = vec4(0.0);
     float weights = 0.0;
 #if DIRECTIONS == 2
@@ -44,5 +41,12 @@ void main()
         // end snippet
     }
 #endif
-    store_texel(atlas_texel(face, voxel, level), sum / weights);
+    return sum / weights;
+}
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= levels[level].count) return;
+    ivec3 voxel = unpack_voxel(occupied[begin + gl_GlobalInvocationID.x]);
+    for (int face = 0; face < kFaceCount; ++face) store_texel(atlas_texel(face, voxel, level), filtered(face, voxel));
 }
