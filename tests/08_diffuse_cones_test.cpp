@@ -260,7 +260,7 @@ TEST(ClosedForms, DiscAboveAPlane)
 }
 
 // Rectangle perpendicular to the floor, 4 wide and 4 high, seen from distance d of its middle (Howell C-3, twice); the
-// limit at contact is E = pi L / 2. Required: 5 %. Measured: within 4 % but for 5.0 % at 16 voxels, so 6 % is allowed.
+// limit at contact is E = pi L / 2. Measured: -2.4 to +3.7 %.
 TEST(ClosedForms, PerpendicularWall)
 {
     SceneBuilder b;
@@ -272,12 +272,13 @@ TEST(ClosedForms, PerpendicularWall)
         pipeline.look(at_point({0, 0.5f, float(d) - 1.7f}, {0, 0, float(d) - 2.0f}));
         const double expected = (std::atan(2.0 / d) - d / slant * std::atan(2.0 / slant)) / kPi;
         const double m = spread_of(pipeline.gathered(usual())).mean;
-        EXPECT_NEAR(m, expected, 0.06 * expected) << distance_voxels << " voxels from the wall";
+        EXPECT_NEAR(m, expected, 0.05 * expected) << distance_voxels << " voxels from the wall";
     }
 }
 
-// Required: 1 % of the lit side. Measured: 1.0 to 1.1 % through a wall one voxel thick (at 64) and 2.1 to 2.2 % through a
-// sheet: cones that start within a voxel of the wall's edge begin in the lit room. 1.5 and 3 % are allowed.
+// Required: 1 % of the lit side's radiance, direct light included (hard_cases/cones_test.cpp). This is against the indirect
+// light alone, which is about half of it: measured 0.4 % through a wall one voxel thick, 1.3 and 1.0 % through a sheet at
+// 64 and 128 voxels: cones that start within a voxel of the wall's edge begin in the lit room.
 TEST(Leaks, LittleLightPassesAThinWall)
 {
     for (const std::string& scene : std::vector<std::string>{"thin_wall", "thin_wall_solid"})
@@ -286,7 +287,7 @@ TEST(Leaks, LittleLightPassesAThinWall)
             const double dark = spread_of(picture_of(asset(scene) + "--camera 0 " + rest)).mean;
             const double lit = spread_of(picture_of(asset(scene) + "--camera 1 " + rest)).mean;
             EXPECT_GT(lit, 0.05);
-            EXPECT_LT(dark, (scene == "thin_wall" ? 0.03 : 0.015) * lit) << scene << ", " << count << " voxels";
+            EXPECT_LT(dark, (scene == "thin_wall" ? 0.015 : 0.01) * lit) << scene << ", " << count << " voxels";
         }
 }
 

@@ -4,7 +4,7 @@
   R0  path tracer, all bounces
   R1  path tracer, --bounces of them           truncation
   R2  512 rays a pixel into the finest voxels  voxelization, and the bounces between voxels
-  R3  512 cones of 10 degrees a pixel          filtering
+  R3  512 cones of 6 degrees a pixel           filtering
   R4  the 96 cones of 16 neighbours a pixel    quadrature
   R5  6 cones a pixel, 16 neighbours share     reconstruction
 

@@ -19,7 +19,7 @@ sys.dont_write_bytecode = True
 from pages import ROOT  # noqa: E402
 from report_analysis import Report, error, pareto_front  # noqa: E402
 from report_measure import BLOCK, NOISE_SHARE, Bench, Failed, counted, machine, times_of  # noqa: E402
-from report_plan import CORE_SCENES, GRID, PARTS, QUICK_SWEEPS, SWEEPS, fitting, make_plan  # noqa: E402
+from report_plan import CORE_SCENES, GRID, PARTS, QUICK_SWEEPS, SCENE_SWEEPS, SWEEPS, fitting, make_plan  # noqa: E402
 
 MEASURES = ["signed_ratio", "smape", "nrmse", "p95", "flip", "noise", "nrmse_without_noise", "noisy_reference"]
 OTHER_BOUNCES_SHARE = 0.5  # of the samples, for the references of the bounces sweep
@@ -179,7 +179,8 @@ def climb_ladder(scene, size, voxels, output, bin_folder):
             "size": size, "voxels": int(voxels)}
 
 
-SWEPT = {name for values in (*SWEEPS.values(), *QUICK_SWEEPS.values(), GRID) for s in values for name in s}
+ALL_SWEEPS = {**SWEEPS, **{name: values for sweeps in SCENE_SWEEPS.values() for name, values in sweeps.items()}}
+SWEPT = {name for values in (*ALL_SWEEPS.values(), *QUICK_SWEEPS.values(), GRID) for s in values for name in s}
 
 
 def write_csv(file, rows):
@@ -258,7 +259,7 @@ def measure_all(options, bench, plan, defaults):
         except Failed as fault:
             measurement.failed.append(f"ladder of {scene}")
             print(f"report: {fault}", file=sys.stderr)
-    sweeps = QUICK_SWEEPS if options.quick else SWEEPS
+    sweeps = QUICK_SWEEPS if options.quick else ALL_SWEEPS
     driver = next(r["driver"] for r in measurement.rows if "driver" in r)
     for row in measurement.rows:
         row.pop("driver", None)

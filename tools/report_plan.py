@@ -8,7 +8,8 @@ OUTSIDE_SCENES = {"sponza": "scenes/sponza_crytek.glb"}  # in the folder of real
 
 PARTS = ["direct", "indirect_diffuse", "indirect_specular", "final"]
 # What a parameter can change; every other one changes all that comes by way of the voxels.
-CHANGES_ONLY = {"shadows": ["direct", "final"], "light_radius": [], "light_angle": []}
+CHANGES_ONLY = {"shadows": ["direct", "final"], "light_radius": [], "light_angle": [],
+                "aimed_rays": ["indirect_diffuse", "final"], "specular_cones": ["indirect_specular", "final"]}
 INDIRECT = ["indirect_diffuse", "indirect_specular", "final"]
 
 # The path tracer's lights have no size: cones to them are made as narrow as they can be, so that what is measured is the
@@ -18,13 +19,18 @@ NARROW_LIGHTS = {"light_radius": "0.001", "light_angle": "0.05"}
 SWEEPS = {
     "voxels": [{"voxels": v} for v in ("32", "64", "128", "256")],
     "cones": [{"cones": c, "interleave": i} for i in ("on", "off") for c in ("5", "6", "9", "16", "32")],
-    "aperture": [{"aperture": a} for a in ("5", "20", "40")],
+    "aperture": [{"aperture": a} for a in ("3", "10", "20", "40")],
     "step": [{"step": s} for s in ("0.25", "0.5", "1", "2")],
-    "start_offset": [{"start_offset": o} for o in ("0.25", "0.75", "1.5", "2.5")],
+    "start_offset": [{"start_offset": o} for o in ("0.25", "0.75", "1.5")],
     "directions": [{"directions": d} for d in ("per_face", "anisotropic", "isotropic")],
     "format": [{"format": f} for f in ("rgba16f", "rgba8", "r11g11b10f")],
     "bounces": [{"bounces": b} for b in ("0", "1", "2", "3", "4", "-1")],
     "shadows": [{"shadows": "map"}, {"shadows": "cone", **NARROW_LIGHTS}, {"shadows": "volume"}],
+}
+# Of parameters that the other scenes have no use for.
+SCENE_SWEEPS = {
+    "cornell_area": {"aimed_rays": [{"aimed_rays": n} for n in ("0", "2", "6", "16")]},
+    "glossy_room": {"specular_cones": [{"specular_cones": n} for n in ("1", "2", "4", "8")]},
 }
 GRID = [
     {"voxels": "32", "cones": "5", "interleave": "off", "step": "2", "bounces": "1"},
@@ -174,7 +180,8 @@ def make_plan(quick, scenes, defaults, shared):
         elif scene not in CORE_SCENES:
             raise ValueError(f"--scenes: {scene} is none of {', '.join(CORE_SCENES + list(OUTSIDE_SCENES))}")
         else:
-            rows += rows_of(scene, QUICK_SWEEPS if quick else SWEEPS, QUICK_GRID if quick else GRID, baseline)
+            sweeps = QUICK_SWEEPS if quick else {**SWEEPS, **SCENE_SWEEPS.get(scene, {})}
+            rows += rows_of(scene, sweeps, QUICK_GRID if quick else GRID, baseline)
         used.append(scene)
     if quick:
         return Plan(used, base, 64, 2, {"direct": 64, "indirect_diffuse": 128, "indirect_specular": 64, "final": 128},

@@ -17,7 +17,7 @@ struct ConeParams {
     // off: the same set everywhere; on: neighbours have 16 different sets and share them, the light of 16 times the cones
     // for the time of one set; every_pixel: all 16 sets everywhere, to measure what sharing costs.
     int interleave = int(Interleave::on);
-    // Full aperture of a diffuse cone in degrees, 0 .. 179; 0: 10 for interleaved sets, whose cones lie close, and as
+    // Full aperture of a diffuse cone in degrees, 0 .. 179; 0: 6 for interleaved sets, whose cones lie close, and as
     // wide as fills the hemisphere for a single one. Wider ones are faster, and blur light across edges and behind
     // horizons.
     float aperture = 0.0f;

@@ -13,7 +13,7 @@ uniform int window_begin;       // pixels from the pixel to the window's first c
 layout(location = 0) out vec4 specular;  // rgb: the same, or radiance towards the camera
 
 const int kWindow = 4;
-const float kMinCosine = 0.98;        // between mirror directions: 11 degrees, a quarter of the narrowest shared lobe
+const float kMinCosine = 0.98;        // between mirror directions: 11 degrees, a third of the narrowest shared lobe
 const float kSameRoughness = 0.02;
 
 void main()

@@ -1,5 +1,5 @@
 // What the specular passes need of a surface. Included after common/g_buffer.glsl.
-const float kSharp = 0.1;   // roughness below which one cone holds the lobe and is narrower than a voxel
+const float kSharp = 0.1;   // roughness below which one cone is enough: 4 degrees wide, a voxel at 14 voxels
 const float kShared = 0.3;  // from which on the lobe is so wide that neighbours have nearly the same
 
 bool has_lobe(GBufferSample surface)

@@ -87,7 +87,9 @@ float fetch_coverage(int face, vec3 p, vec3 size, int level)
 #endif
 }
 
-// How far outside the bounds, in level voxels, the walls of the other axes still count.
+// How far outside the bounds, in level voxels, the walls of the other axes still count. Measured with 0, 0.2, 0.5: a
+// white furnace turned by 45 degrees (64 voxels) gets 0.987, 0.995, 0.997 of its light; the Cornell box (128, blocks of
+// 4 x 4, one bounce) 1.003, 1.005, 1.009 of the true one, SMAPE 0.0491, 0.0489, 0.0523.
 const float kCornerMargin = 0.2;
 
 // A slanted surface shows some of its faces to a cone that leaves it: those across the axes along which the cone goes back
@@ -137,7 +139,10 @@ vec4 sample_level(vec3 position, Cone cone, int level, vec3 axes, bool leaving, 
     return weight.x * x + weight.y * y + weight.z * z;
 }
 
-const float kBlur = 1.5;  // voxels of a level to either side that a surface may be blurred over
+// Voxels of a level to either side that a surface may be blurred over: one by linear interpolation, half a one for where
+// in its voxel it lies. Measured with 0.5, 1, 1.5, 2: a thin wall (128) lets through 1.14, 1.07, 1.04, 1.04 % of the
+// light on its other side, and a floor tilted by 40 degrees lights itself by 0.14, 0.05, 0.05, 0.05 %.
+const float kBlur = 1.5;
 
 // Distance along the ray to where it leaves the scene's bounds, moved out by `margin`; all in voxels.
 float exit_distance(vec3 origin, vec3 direction, float margin)
@@ -163,7 +168,10 @@ float stopped_share(float coverage, float open)
 
 // What is left of a cone that leaves the bounds through a wall is an error of the steps, or was begun inside the blurred
 // wall: the wall stops it. Where the bounds are open, or covered in part, it goes on to the sky.
-const float kClosed = 0.8;  // coverage from which on the bounds count as a wall, fully so at 1
+// Coverage from which on the bounds count as a wall, fully so at 1; lower values would close openings. With 0.5, 0.8, 0.95
+// a white furnace turned by 45 degrees (64) gets 0.996, 0.995, 0.994 of its light, 0.993 if nothing is closed; a straight
+// one 1.000, and 0.996 if nothing is closed.
+const float kClosed = 0.8;
 
 void close_at_bounds(Cone cone, inout ConeLight light)
 {
@@ -183,7 +191,9 @@ void close_at_bounds(Cone cone, inout ConeLight light)
     light.transmittance -= stopped;
 }
 
-// Steps meet a wall's coverage with an error of up to a tenth: what is left of a cone after that is no gap.
+// Steps meet a wall's coverage with an error of up to a tenth: what is left of a cone after that is no gap. With 0, 0.1, 0.2
+// a thin wall (64) lets through 1.5, 1.3 and 1.1 %, a turned white furnace gets 0.983, 0.989, 0.995 of its light, and the
+// Cornell box has SMAPE 0.0491, 0.0489, 0.0490; but what covers nine tenths may be nine tenths of a wall and a gap.
 const float kNearlyStopped = 0.1;
 
 // March along the axis in steps as long as the cone is wide, from t to the end of one part of the way. Fetches that only
