@@ -11,6 +11,7 @@
 #include "reference/compare_images.hpp"
 #include "reference/path_tracer.hpp"
 #include "temporary_folder.hpp"
+#include "voxel_pipeline.hpp"
 
 namespace conebook {
 namespace {
@@ -68,6 +69,36 @@ TEST(DirectionalAlbedo, SmoothMetalReflectsByFresnelAlone)
         EXPECT_NEAR(a.x, 1.0 - grazing, 1e-3);
         EXPECT_NEAR(a.y, grazing, 1e-3);
     }
+}
+
+// What a voxel sends on of the light that falls on it from all sides: rho, and the lobe's mean over the cosine.
+TEST(DirectionalAlbedo, VoxelsReflectItsMean)
+{
+    for (const float roughness : {0.03f, 0.2f, 0.4f, 0.6f, 0.8f, 1.0f})
+        for (const float metallic : {0.0f, 0.5f, 1.0f}) {
+            Material m;  // dielectric of F0 0.04, or metal
+            m.base_color = glm::vec4(0.8f, 0.5f, 0.2f, 1.0f);
+            m.metallic = metallic;
+            m.roughness = roughness;
+            SceneBuilder b;
+            b.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, b.material(m));
+            constexpr int kSteps = 128;
+            glm::dvec2 mean(0.0);  // 2 integral of albedo(c) c dc
+            for (int i = 0; i < kSteps; ++i) {
+                const double c = (i + 0.5) / kSteps;
+                mean += 2.0 * c / kSteps * directional_albedo(c, double(roughness) * double(roughness), 1024);
+            }
+            VoxelPipeline pipeline(b.build(), 8);
+            ASSERT_FALSE(pipeline.faces().empty());
+            for (const LitFace& face : pipeline.faces())
+                for (int channel = 0; channel < 3; ++channel) {
+                    const double base = double(m.base_color[channel]), metal = double(metallic);
+                    const double f0 = 0.04 * (1.0 - metal) + base * metal;
+                    const double expected = base * (1.0 - metal) + f0 * mean.x + mean.y;
+                    EXPECT_NEAR(face.mean.albedo_area[channel], expected, 0.005)
+                        << "roughness " << roughness << " metallic " << metallic;
+                }
+        }
 }
 
 TEST(DirectionalAlbedo, TheTableHoldsIt)
