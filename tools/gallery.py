@@ -63,7 +63,7 @@ class Gallery:
         if name in self.made or only_missing and self.file(name).exists():
             return True
         arguments, needs = self.arguments(name)
-        if not all([self.make(need, only_missing=True) for need in needs]):
+        if not all([self.make(need, only_missing) for need in needs]):
             return False
         missing = [word for word in arguments if word.startswith(str(self.shared)) and not Path(word).exists()]
         if missing:
@@ -106,9 +106,6 @@ def main():
             return 0
         if not options.names:  # parts are made when a picture needs them
             chosen = [name for name in chosen if not name.startswith("parts/")]
-            if not options.missing:
-                for part in gallery.parts.rglob("*.*"):
-                    part.unlink()
         failed = [name for name in chosen if not gallery.make(name, options.missing)]
     except (OSError, ValueError) as error:
         print(f"gallery: {error}", file=sys.stderr)
