@@ -71,7 +71,8 @@ TEST(DirectionalAlbedo, SmoothMetalReflectsByFresnelAlone)
     }
 }
 
-// What a voxel sends on of the light that falls on it from all sides: rho, and the lobe's mean over the cosine.
+// What a voxel sends on of the light that falls on it from all sides: rho, and the lobe's mean over the cosine. The
+// shader's polynomials are within 0.003 of x and 0.0005 of y, 0.0035 together; the rest is this quadrature's.
 TEST(DirectionalAlbedo, VoxelsReflectItsMean)
 {
     for (const float roughness : {0.03f, 0.2f, 0.4f, 0.6f, 0.8f, 1.0f})

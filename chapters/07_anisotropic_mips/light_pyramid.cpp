@@ -64,18 +64,12 @@ void OccupiedLevels::run(const VoxelGrid& grid, const VoxelFaces& faces)
         claimed.bind(GL_SHADER_STORAGE_BUFFER, 14);
         (level == 1 ? faces.voxel_list() : lists_).bind(GL_SHADER_STORAGE_BUFFER, 7);
         parents_.set("finer_begin", begin_[std::size_t(level - 1)]);
-        lists_.bind(GL_SHADER_STORAGE_BUFFER, 12);
-        levels_.bind(GL_SHADER_STORAGE_BUFFER, 13);
-        parents_.set("level", level);
-        parents_.set("begin", begin_[std::size_t(level)]);
-        parents_.use();
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, levels_.id());
-        glDispatchComputeIndirect(GLintptr(std::size_t(level - 1) * sizeof(glm::uvec4)));
+        dispatch(parents_, level, level - 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     }
 }
 
-void OccupiedLevels::dispatch(const gl::Program& program, int level) const
+void OccupiedLevels::dispatch(const gl::Program& program, int level, int items_of) const
 {
     lists_.bind(GL_SHADER_STORAGE_BUFFER, 12);
     levels_.bind(GL_SHADER_STORAGE_BUFFER, 13);
@@ -83,7 +77,7 @@ void OccupiedLevels::dispatch(const gl::Program& program, int level) const
     program.set("begin", begin_[std::size_t(level)]);
     program.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, levels_.id());
-    glDispatchComputeIndirect(GLintptr(std::size_t(level) * sizeof(glm::uvec4)));
+    glDispatchComputeIndirect(GLintptr(std::size_t(items_of) * sizeof(glm::uvec4)));
 }
 
 LightPyramid::LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params)

@@ -30,10 +30,12 @@ public:
     void run(const VoxelGrid& grid, const VoxelFaces& faces);
     // For shaders that include occupied_levels.glsl: storage 12 and 13, uniforms level and begin; then one work item for
     // each voxel of the level >= 1.
-    void dispatch(const gl::Program& program, int level) const;
+    void dispatch(const gl::Program& program, int level) const { dispatch(program, level, level); }
     const gl::Buffer& lists() const { return lists_; }
 
 private:
+    // Uniforms of `level`, one work item for each occupied voxel of `items_of`.
+    void dispatch(const gl::Program& program, int level, int items_of) const;
     gl::Program parents_;
     gl::Buffer lists_, levels_;
     std::vector<GLuint> begin_;  // of each level's part of the lists

@@ -32,8 +32,7 @@ try {
 
     const GpuScene scene(app.scene());
     ShadowMaps shadow_maps(app.shaders(), scene, shadow_map_params);
-    const bool asks_maps = shadow_params.shadows == int(ShadowMethod::map) ||
-                           voxel_params.shading.voxel_shadows == int(VoxelShadows::map);
+    const bool asks_maps = ask_shadow_maps(shadow_params, voxel_params.shading);
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     GBuffer g_buffer(app.shaders(), app.size());
     SoftShadowLighting lighting(app.shaders(), voxels.grid(), ShadowMethod(shadow_params.shadows));

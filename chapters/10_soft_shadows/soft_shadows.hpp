@@ -23,6 +23,12 @@ struct SoftShadowParams {
 };
 void add_parameters(ParameterTable& table, SoftShadowParams& params);
 
+// Pixels or voxels look into the shadow maps.
+inline bool ask_shadow_maps(const SoftShadowParams& pixels, const VoxelShadingParams& voxels)
+{
+    return pixels.shadows == int(ShadowMethod::map) || voxels.voxel_shadows == int(VoxelShadows::map);
+}
+
 class SoftShadowLighting {
 public:
     SoftShadowLighting(gl::Shaders& shaders, const VoxelGrid& grid, ShadowMethod method);

@@ -11,10 +11,10 @@ namespace conebook {
 
 namespace {
 
-constexpr int kSets = 16;              // of aimed rays, as of cones
-constexpr float kAllIsNear = 1e30f;    // voxels squared
-// Cones meet by chance what is a tenth of all surfaces, and rays to it are no better: unit cubes and spheres of which a
-// sixth shines are right within 5 % without them.
+constexpr int kSets = 16;            // of aimed rays, as of cones
+constexpr float kAllIsNear = 1e30f;  // voxels squared
+// Rays are better while emitters are small, and still so at a fifth of all surfaces (disc of 22 %, 0.9 m above a plane:
+// 1.042 of the closed form by cones alone, 1.011 with rays). In rooms that shine all over cones are exact, and faster.
 constexpr float kLargeShare = 0.3f;
 
 struct Emitter {
@@ -122,7 +122,9 @@ void Emitters::bind(const gl::Program& program, const DiffuseConeUniforms& cones
 {
     occupancy_->bind(shared::kOccupancyUnit);
     if (parts_) parts_.bind(GL_SHADER_STORAGE_BUFFER, 14);
-    program.set("emitters_per_set", !parts_ ? 0 : cones.sets() == kSets ? params_.aimed_rays : kSets * params_.aimed_rays);
+    program.set("emitters_per_set", !parts_                 ? 0
+                                    : cones.sets() == kSets ? params_.aimed_rays
+                                                            : kSets * params_.aimed_rays);
     near_light().bind(program);
 }
 
@@ -162,7 +164,9 @@ Need Emitters::need() const
 {
     const std::string share = std::to_string(int(100.0f * emitting_share_ + 0.5f)) + " % of the scene's area shines";
     return {"rays aimed at emitters", apart_,
-            emitting_share_ == 0.0f ? "no material shines" : params_.aimed_rays == 0 ? "aimed_rays=0" : share};
+            emitting_share_ == 0.0f   ? "no material shines"
+            : params_.aimed_rays == 0 ? "aimed_rays=0"
+                                      : share};
 }
 
 float emitting_share(const Scene& scene)
@@ -172,7 +176,9 @@ float emitting_share(const Scene& scene)
         const Material& material = scene.materials[std::size_t(draw.material)];
         const bool shines = material.emission != glm::vec3(0.0f) || material.unlit;
         for (std::size_t i = draw.first_index; i < std::size_t(draw.first_index) + draw.index_count; i += 3) {
-            const auto corner = [&](std::size_t k) { return glm::dvec3(scene.vertices[scene.indices[i + k]].position); };
+            const auto corner = [&](std::size_t k) {
+                return glm::dvec3(scene.vertices[scene.indices[i + k]].position);
+            };
             const double area = 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
             all += area;
             emitting += shines ? area : 0.0;

@@ -49,7 +49,7 @@ public:
 private:
     EmitterParams params_;
     const gl::Texture* occupancy_;  // of the voxelizer
-    float emitting_share_;  // of the scene's area
+    float emitting_share_;          // of the scene's area
     bool apart_;
     std::optional<PyramidProgram> aimed_;
     std::optional<LightPyramid> pyramid_;

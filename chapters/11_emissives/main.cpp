@@ -21,8 +21,8 @@ try {
     EmitterParams emitter_params;
     CompositeParams composite_params;
     DisplayParams display_params;
-    ParameterTable parameters = parameters_of(voxel_params, shadow_params, cone_params, diffuse_params,
-                                              specular_params, emitter_params, composite_params, display_params);
+    ParameterTable parameters = parameters_of(voxel_params, shadow_params, cone_params, diffuse_params, specular_params,
+                                              emitter_params, composite_params, display_params);
 
     App app(argc, argv,
             {"11_emissives",
@@ -72,9 +72,9 @@ try {
 
         // Light of other surfaces, shining or lit.
         const gl::Texture *gathered = nullptr, *specular = nullptr;
-        app.pass("diffuse cones",
-                 [&] { gathered = &emitters.gather(diffuse_cones, g_buffer, voxels.grid(), voxels.pyramid(), cones,
-                                              cone_params); });
+        app.pass("diffuse cones", [&] {
+            gathered = &emitters.gather(diffuse_cones, g_buffer, voxels.grid(), voxels.pyramid(), cones, cone_params);
+        });
         if (reflective)
             app.pass("specular cones", [&] {
                 specular = &specular_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cone_params, specular_params,
@@ -96,8 +96,9 @@ try {
     for (int channel = 0; channel < 3; ++channel)
         counts.push_back({std::string("emitted power, ") + "rgb"[channel], power_w[channel], "W"});
     app.statistics().set_counts(counts);
-    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), emitters.resources(),
-                             g_buffer.resources(), direct_lighting.resources(), diffuse_cones.resources(), specular_cones.resources()})
+    for (const auto& part :
+         {scene.resources(), shadow_maps.resources(), voxels.resources(), emitters.resources(), g_buffer.resources(),
+          direct_lighting.resources(), diffuse_cones.resources(), specular_cones.resources()})
         app.statistics().add_resources(part);
     for (const auto& needs : {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene)})
         app.statistics().add_needs(needs);

@@ -45,8 +45,7 @@ try {
 
     const GpuScene scene(app.scene());
     ShadowMaps shadow_maps(app.shaders(), scene, shadow_map_params);
-    const bool asks_maps = pixel_params.shadows.shadows == int(ShadowMethod::map) ||
-                           voxel_params.shading.voxel_shadows == int(VoxelShadows::map);
+    const bool asks_maps = ask_shadow_maps(pixel_params.shadows, voxel_params.shading);
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     Emitters emitters(app.shaders(), app.scene(), voxels.grid(), voxels.voxelizer(), emitter_params);
     SecondBounce second_bounce(app.shaders(), emitters.are_apart());

@@ -59,8 +59,7 @@ try {
     ToneMapPass tone_map(app.shaders());
     FetchCounts fetches;
     const bool indirect = bounce_params.bounces != 0;
-    const bool asks_maps = pixel_params.shadows.shadows == int(ShadowMethod::map) ||
-                           voxel_params.shading.voxel_shadows == int(VoxelShadows::map);
+    const bool asks_maps = ask_shadow_maps(pixel_params.shadows, voxel_params.shading);
 
     while (app.next_frame()) {
         // Chapter 12's frame: light, voxels, bounces, pixels.

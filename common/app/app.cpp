@@ -9,7 +9,6 @@
 
 #include "app/needs.hpp"
 #include "app/window.hpp"
-#include "image/image.hpp"
 
 namespace conebook {
 
@@ -125,21 +124,12 @@ void App::pass(const std::string& name, const std::function<void()>& work)
 
 void App::write_picture(const gl::Texture& linear, const gl::Texture& display) const
 {
-    const glm::ivec2 size = linear.size_2d();
-    ImageF radiance{size.x, size.y, {}};
-    const std::vector<float> floats = gl::read_floats(linear, 0, 4);
-    radiance.pixels.resize(floats.size() / 4);
-    std::memcpy(radiance.pixels.data(), floats.data(), floats.size() * sizeof(float));
-    for (const glm::vec4& pixel : radiance.pixels)
-        for (int c = 0; c < 4; ++c)
-            if (!std::isfinite(pixel[c]))
-                throw std::runtime_error(options_.output.string() + ": not written, the picture holds a value that is "
-                                                                    "not finite");
+    const ImageF radiance = finite_picture(linear, options_.output);
     if (options_.output.extension() == ".exr") {
-        flip_rows(radiance.pixels, size.x, size.y);
         write_exr(options_.output, radiance);
         return;
     }
+    const glm::ivec2 size = linear.size_2d();
     std::vector<std::uint32_t> texels(std::size_t(size.x) * std::size_t(size.y));
     glGetTextureImage(display.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, GLsizei(texels.size() * 4), texels.data());
     flip_rows(texels, size.x, size.y);
@@ -176,6 +166,20 @@ int App::finish()
     if (!options_.stats.empty()) statistics_.write_json(options_.stats);
     if (options_.print_stats) std::cout << statistics_.table();
     return EXIT_SUCCESS;
+}
+
+ImageF finite_picture(const gl::Texture& linear, const std::filesystem::path& file)
+{
+    const glm::ivec2 size = linear.size_2d();
+    ImageF picture{size.x, size.y, {}};
+    const std::vector<float> floats = gl::read_floats(linear, 0, 4);
+    for (const float value : floats)
+        if (!std::isfinite(value))
+            throw std::runtime_error(file.string() + ": not written, the picture holds a value that is not finite");
+    picture.pixels.resize(floats.size() / 4);
+    std::memcpy(picture.pixels.data(), floats.data(), floats.size() * sizeof(float));
+    flip_rows(picture.pixels, size.x, size.y);
+    return picture;
 }
 
 int report_failure(const std::exception& error)

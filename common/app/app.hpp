@@ -20,6 +20,7 @@
 #include "gl/gpu_scene.hpp"
 #include "gl/handles.hpp"
 #include "gl/shaders.hpp"
+#include "image/image.hpp"
 #include "scene/scene.hpp"
 
 namespace conebook {
@@ -77,6 +78,10 @@ private:
     const gl::Texture* display_ = nullptr;
     std::unique_ptr<Window> window_;  // null when headless
 };
+
+// RGBA texture of floats as a picture, top row first. Throws std::runtime_error that names `file`, which is then not to be
+// written, when a value is not finite.
+ImageF finite_picture(const gl::Texture& linear, const std::filesystem::path& file);
 
 // For main's catch: prints the one line to stderr and gives the exit code.
 int report_failure(const std::exception& error);
