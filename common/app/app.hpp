@@ -7,7 +7,6 @@
 //     return app.finish();
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,6 +14,7 @@
 
 #include "app/context.hpp"
 #include "app/options.hpp"
+#include "app/pass_timer.hpp"
 #include "app/statistics.hpp"
 #include "gl/debug_log.hpp"
 #include "gl/gpu_scene.hpp"
@@ -44,8 +44,7 @@ public:
     const View& view() const;                   // this frame's
     bool shows(const std::string& view_name) const { return view().name == view_name; }
 
-    // Do and time one pass: CPU clock around glFinish on a software driver, whose timer queries do not count the
-    // work; GPU timer queries elsewhere.
+    // Do and time one pass (pass_timer.hpp), which must not time another.
     void pass(const std::string& name, const std::function<void()>& work);
 
     // The frame's picture: `linear` is what .exr gets, `display` (RGBA8, sRGB encoded) is for .png and the screen.
@@ -59,7 +58,6 @@ public:
 private:
     struct Window;
     void write_picture(const gl::Texture& linear, const gl::Texture& display) const;
-    void collect_queries();
 
     ProgramInfo info_;
     Options options_;
@@ -68,12 +66,11 @@ private:
     gl::DebugLog debug_log_;
     gl::Shaders shaders_;
     Statistics statistics_;
+    PassTimer timer_;
     Camera camera_;
     glm::ivec2 size_;
     std::size_t view_index_ = 0;
     int frame_ = -1;
-    bool software_driver_ = false;
-    std::vector<std::pair<std::string, gl::Handle<gl::delete_query>>> pending_queries_;
     const gl::Texture* linear_ = nullptr;
     const gl::Texture* display_ = nullptr;
     std::unique_ptr<Window> window_;  // null when headless

@@ -1,5 +1,7 @@
 #include "app/context.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include <epoxy/egl.h>
@@ -8,6 +10,15 @@
 #include <GLFW/glfw3.h>
 
 namespace conebook {
+
+namespace {
+
+// Parts of the names of renderers that run on the CPU: Mesa's three, and Windows's under WSL.
+constexpr const char* kSoftwareRenderers[] = {"llvmpipe", "softpipe", "SWR", "Microsoft Basic Render Driver"};
+
+std::string gl_string(GLenum name) { return reinterpret_cast<const char*>(glGetString(name)); }
+
+}  // namespace
 
 struct Context::State {
     GLFWwindow* window = nullptr;
@@ -32,6 +43,15 @@ Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
 GLFWwindow* Context::glfw_window() const { return state_->window; }
+
+std::string Context::driver() const { return gl_string(GL_RENDERER) + ", " + gl_string(GL_VERSION); }
+
+bool Context::is_software() const
+{
+    const std::string renderer = gl_string(GL_RENDERER);
+    return std::any_of(std::begin(kSoftwareRenderers), std::end(kSoftwareRenderers),
+                       [&](const char* name) { return renderer.find(name) != std::string::npos; });
+}
 
 Context Context::window(const std::string& title, glm::ivec2 size)
 {
@@ -69,8 +89,7 @@ Context Context::headless()
                                  EGL_TRUE,
                                  EGL_NONE};
     state->egl_context = eglCreateContext(state->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
-    if (state->egl_context == EGL_NO_CONTEXT)
-        throw std::runtime_error("EGL gives no OpenGL 4.5 core context");
+    if (state->egl_context == EGL_NO_CONTEXT) throw std::runtime_error("EGL gives no OpenGL 4.5 core context");
     if (eglMakeCurrent(state->display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->egl_context) == EGL_FALSE)
         throw std::runtime_error("EGL cannot make its context current without a surface");
     return Context(std::move(state));

@@ -20,6 +20,8 @@ public:
     ~Context();
 
     GLFWwindow* glfw_window() const;  // null when headless
+    std::string driver() const;       // renderer and version, as OpenGL names them
+    bool is_software() const;         // the CPU draws
 
 private:
     struct State;
