@@ -42,7 +42,7 @@ App::App(int argc, char** argv, ProgramInfo info)
     : info_(std::move(info)),
       options_(parse_options(argc, argv, info_)),
       scene_(load_scene(options_.scene)),
-      context_(options_.headless ? Context::headless() : Context::window(info_.name, options_.size)),
+      context_(options_.headless ? Context::headless(options_.device) : Context::window(info_.name, options_.size)),
       shaders_(options_.root / "shaders"),
       timer_(context_.is_software() ? PassTimer::Clock::cpu_around_finish : PassTimer::Clock::gpu_queries),
       camera_(choose_camera(scene_, options_.camera)),
@@ -56,9 +56,11 @@ App::App(int argc, char** argv, ProgramInfo info)
     // The book's conventions for every pass: depth 1 near and 0 far, stored as float without loss.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-    if (context_.glfw_window() != nullptr)
+    if (context_.glfw_window() != nullptr) {
+        std::cerr << info_.name << ": drawn by " << context_.driver() << "\n";
         window_ = std::unique_ptr<Window>(
             new Window{WindowInput(context_.glfw_window(), camera_, scene_.bounds), {}, 0});
+    }
 }
 
 App::~App() = default;
