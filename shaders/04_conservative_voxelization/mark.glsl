@@ -3,7 +3,7 @@
 #include "common/voxel_counters.glsl"
 #include "common/scene_structs.glsl"
 
-layout(std140, binding = 3) uniform MaterialBlock { MaterialData drawn_material; };
+layout(std140, binding = kMaterialBlock) uniform MaterialBlock { MaterialData drawn_material; };
 layout(r32ui, binding = 0) uniform uimage3D occupancy;
 #if COUNT_FRAGMENTS
 layout(r32ui, binding = 1) uniform uimage3D fragment_counts;

@@ -7,7 +7,8 @@
 #include "05_atomic_averaging/voxel_material.glsl"
 
 layout(r32ui, binding = 0) readonly uniform uimage3D face_index;
-layout(std430, binding = 9) buffer SumBuffer { uint sums[]; };  // a face: kSumCount low words, as many high ones
+// Of a face kSumCount low words, then as many high ones.
+layout(std430, binding = kSumBinding) buffer SumBuffer { uint sums[]; };
 
 // 64-bit addition in two 32-bit atomics: whoever makes the low word wrap carries one into the high word. Integer sums
 // do not depend on the order of the threads, so every run gives the same bits.
