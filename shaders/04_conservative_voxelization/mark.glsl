@@ -1,5 +1,5 @@
 // Set the bit of the triangle's face in the voxel; a double-sided triangle has two.
-#include "common/triangle_voxels.glsl"
+#include "04_conservative_voxelization/triangle_voxels.glsl"
 #include "common/voxel_counters.glsl"
 #include "common/scene_structs.glsl"
 

@@ -1,8 +1,8 @@
 // Add a fragment to the sums of its voxel's face: exact area, exact centre of area, the material there.
 // TEXTURES, EMISSION: 1 when some material of the scene has them.
-#include "common/triangle_voxels.glsl"
-#include "common/triangle_attributes.glsl"
-#include "common/face_index.glsl"
+#include "04_conservative_voxelization/triangle_voxels.glsl"
+#include "05_atomic_averaging/triangle_attributes.glsl"
+#include "05_atomic_averaging/face_index.glsl"
 #include "05_atomic_averaging/triangle_part.glsl"
 #include "05_atomic_averaging/voxel_material.glsl"
 

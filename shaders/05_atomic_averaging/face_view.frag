@@ -1,8 +1,8 @@
 #version 450 core
 // Show a quantity of the faces of the voxels that the camera's ray meets.
 #include "common/camera_ray.glsl"
-#include "common/voxel_walk.glsl"
-#include "common/face_index.glsl"
+#include "04_conservative_voxelization/voxel_walk.glsl"
+#include "05_atomic_averaging/face_index.glsl"
 
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(binding = kPackedColorUnit) uniform usampler3D packed_color;  // RGBA8 in 32 bits, instead of the faces

@@ -5,7 +5,7 @@
 #include "common/brdf.glsl"
 #include "common/light.glsl"
 #include "common/voxel_counters.glsl"
-#include "common/voxel_walk.glsl"
+#include "04_conservative_voxelization/voxel_walk.glsl"
 #if SHADOWS == 1
 #include "common/shadow_map.glsl"
 #endif

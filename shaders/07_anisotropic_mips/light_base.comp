@@ -3,7 +3,7 @@
 #include "07_anisotropic_mips/store_light.glsl"
 #include "07_anisotropic_mips/projected_area.glsl"
 #include "common/voxel_counters.glsl"
-#include "common/face_index.glsl"
+#include "05_atomic_averaging/face_index.glsl"
 
 layout(local_size_x = 64) in;
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;

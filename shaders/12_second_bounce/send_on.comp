@@ -3,7 +3,7 @@
 // L(k) = L(0) + rho E / pi
 #include "common/voxel_counters.glsl"
 #include "common/voxel_grid.glsl"
-#include "common/face_index.glsl"
+#include "05_atomic_averaging/face_index.glsl"
 
 layout(local_size_x = 64) in;
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
