@@ -161,7 +161,7 @@ TEST_F(SharedStructs, VoxelFaceAndStatistics)
     expect_stride("counters[0].faces", sizeof(S));
 }
 
-// Compute shaders read vertices as 18 floats (shaders/common/triangle_voxels.glsl).
+// Compute shaders read vertices as 18 floats (shaders/04_conservative_voxelization/triangle_voxels.glsl).
 TEST_F(SharedStructs, VerticesAreEighteenFloats)
 {
     EXPECT_EQ(sizeof(Vertex), 18 * sizeof(float));

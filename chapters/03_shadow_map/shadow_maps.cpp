@@ -147,8 +147,8 @@ void ShadowMaps::draw(const GpuScene& scene)
 
 void ShadowMaps::bind(const gl::Program& program) const
 {
-    layer_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 4);
-    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 14);
+    layer_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kShadowLayerBinding);
+    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kShadowLightBinding);
     depth_.bind(GLuint(shared::kShadowMapUnit));
     program.set("shadow_bias_texels", params_.shadow_bias);
     program.set("shadow_receiver_plane", params_.shadow_receiver_plane ? 1 : 0);

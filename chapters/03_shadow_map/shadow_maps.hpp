@@ -26,7 +26,7 @@ class ShadowMaps {
 public:
     ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params);
     void draw(const GpuScene& scene);
-    // For shaders that include common/shadow_map.glsl: storage 4 and 14, unit 14.
+    // For shaders that include common/shadow_map.glsl: kShadowLayerBinding, kShadowLightBinding, kShadowMapUnit.
     void bind(const gl::Program& program) const;
 
     int layers() const { return int(layers_.size()); }

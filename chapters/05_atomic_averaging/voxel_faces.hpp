@@ -37,7 +37,7 @@ public:
     const gl::Buffer& voxel_groups() const { return voxel_groups_; }   // indirect dispatch: 64 voxels a work group
     std::vector<gl::Resource> resources() const;
 
-    // Storage 5 (counters), 7 (voxel list), 8 (face list), 10 (faces), kFaceIndexUnit.
+    // kVoxelCounterBinding, kVoxelListBinding, kFaceListBinding, kFaceBinding, kFaceIndexUnit.
     void bind() const;
 
 private:

@@ -34,8 +34,8 @@ void VoxelShading::run(const GpuScene& scene, const VoxelGrid& grid, const Conse
     shadow_maps.bind(program_);
     program_.set("soft_sharpness", params_.soft_sharpness);
     // snippet: dispatch
-    radiance_.bind(GL_SHADER_STORAGE_BUFFER, 11);
-    visibility_.bind(GL_SHADER_STORAGE_BUFFER, 12);
+    radiance_.bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBinding);
+    visibility_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVisibilityBinding);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

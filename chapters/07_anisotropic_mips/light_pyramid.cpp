@@ -61,8 +61,8 @@ void OccupiedLevels::run(const VoxelGrid& grid, const VoxelFaces& faces)
     grid.bind();
     for (int level = 1; level < grid.levels(); ++level) {
         claimed.clear();
-        claimed.bind(GL_SHADER_STORAGE_BUFFER, 14);
-        (level == 1 ? faces.voxel_list() : lists_).bind(GL_SHADER_STORAGE_BUFFER, 7);
+        claimed.bind(GL_SHADER_STORAGE_BUFFER, shared::kClaimedBinding);
+        (level == 1 ? faces.voxel_list() : lists_).bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelListBinding);
         parents_.set("finer_begin", begin_[std::size_t(level - 1)]);
         dispatch(parents_, level, level - 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -71,8 +71,8 @@ void OccupiedLevels::run(const VoxelGrid& grid, const VoxelFaces& faces)
 
 void OccupiedLevels::dispatch(const gl::Program& program, int level, int items_of) const
 {
-    lists_.bind(GL_SHADER_STORAGE_BUFFER, 12);
-    levels_.bind(GL_SHADER_STORAGE_BUFFER, 13);
+    lists_.bind(GL_SHADER_STORAGE_BUFFER, shared::kOccupiedBinding);
+    levels_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLevelBinding);
     program.set("level", level);
     program.set("begin", begin_[std::size_t(level)]);
     program.use();
@@ -109,7 +109,7 @@ void LightPyramid::bind() const
 {
     light_.bind(GLuint(shared::kLightAtlasUnit));
     if (coverage_) coverage_.bind(GLuint(shared::kCoverageAtlasUnit));
-    scale_.bind(GL_UNIFORM_BUFFER, 4);
+    scale_.bind(GL_UNIFORM_BUFFER, shared::kPyramidBlock);
 }
 
 void LightPyramid::bind_level(int level) const
@@ -124,13 +124,13 @@ void LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
     grid.bind();
     faces.bind();
     bind();
-    face_radiance.bind(GL_SHADER_STORAGE_BUFFER, 11);
+    face_radiance.bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBinding);
     constexpr glm::vec2 kWeights[] = {{1, 0}, {1, -1}, {0, 1}, {0, 0}};  // of radiance and emission
     if (format_ == LightFormat::rgba8) {
         constexpr glm::vec4 kLeast(1e-6f);  // so that what is black is not divided by 0
         scale_.write(0, sizeof kLeast, &kLeast);
         largest_radiance_.set("part", kWeights[int(part)]);
-        scale_.bind(GL_SHADER_STORAGE_BUFFER, 13);
+        scale_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightScaleBinding);
         largest_radiance_.use();
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
         glDispatchComputeIndirect(0);
@@ -181,7 +181,7 @@ const gl::Texture& PyramidViewPass::run(const VoxelGrid& grid, const gl::Texture
 {
     gl::fit_to_pixels(color_, framebuffer_, "pyramid view", GL_RGBA16F, size);
     grid.bind();
-    camera.bind(GL_UNIFORM_BUFFER, 0);
+    camera.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     occupancy.bind(shared::kOccupancyUnit);
     pyramid.bind();
     const gl::Program& program = program_.reading(pyramid);

@@ -69,7 +69,7 @@ DiffuseConeUniforms::DiffuseConeUniforms(const ConeParams& params)
 void DiffuseConeUniforms::bind(const gl::Program& program, const ConeParams& params) const
 {
     set_cone_march(program, params);
-    cones_.bind(GL_UNIFORM_BUFFER, 2);
+    cones_.bind(GL_UNIFORM_BUFFER, shared::kConeBlock);
     program.set("cone_count", cones_per_set_);
     program.set("cone_sets", sets_);
     program.set("tan_half_aperture", tan_half_aperture_);

@@ -31,7 +31,7 @@ void SoftShadowLighting::fill_volume(const VoxelGrid& grid, const VoxelFaces& fa
     visibility_volume_.clear();
     grid.bind();
     faces.bind();
-    shading.visibility().bind(GL_SHADER_STORAGE_BUFFER, 12);
+    shading.visibility().bind(GL_SHADER_STORAGE_BUFFER, shared::kVisibilityBinding);
     visibility_volume_.bind_image(0, 0, GL_WRITE_ONLY);
     fill_volume_.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());

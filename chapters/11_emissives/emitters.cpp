@@ -121,7 +121,7 @@ EmittedLight Emitters::all_light() const { return apart_ ? EmittedLight{&*pyrami
 void Emitters::bind(const gl::Program& program, const DiffuseConeUniforms& cones) const
 {
     occupancy_->bind(shared::kOccupancyUnit);
-    if (parts_) parts_.bind(GL_SHADER_STORAGE_BUFFER, 14);
+    if (parts_) parts_.bind(GL_SHADER_STORAGE_BUFFER, shared::kEmitterBinding);
     program.set("emitters_per_set", !parts_                 ? 0
                                     : cones.sets() == kSets ? params_.aimed_rays
                                                             : kSets * params_.aimed_rays);

@@ -40,7 +40,7 @@ void SecondBounce::run(LitVoxels& voxels, const Emitters& emitters, const Diffus
         const gl::Program& gather = gather_.reading(voxels.pyramid());
         cones.bind(gather, cone_params);
         if (emitters.are_apart()) emitters.bind(gather, cones);
-        gathered_.bind(GL_SHADER_STORAGE_BUFFER, 12);
+        gathered_.bind(GL_SHADER_STORAGE_BUFFER, shared::kGatheredBinding);
         gather.use();
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
         glDispatchComputeIndirect(0);
@@ -48,9 +48,9 @@ void SecondBounce::run(LitVoxels& voxels, const Emitters& emitters, const Diffus
 
         // Every face sends on its share of what its wall gathered.
         change_.clear();
-        voxels.shading().radiance().bind(GL_SHADER_STORAGE_BUFFER, 11);
-        change_.bind(GL_SHADER_STORAGE_BUFFER, 13);
-        bounced_.bind(GL_SHADER_STORAGE_BUFFER, 15);
+        voxels.shading().radiance().bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBinding);
+        change_.bind(GL_SHADER_STORAGE_BUFFER, shared::kChangeBinding);
+        bounced_.bind(GL_SHADER_STORAGE_BUFFER, shared::kBouncedBinding);
         send_on_.use();
         glDispatchComputeIndirect(0);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

@@ -203,21 +203,21 @@ GpuScene::GpuScene(const Scene& scene)
 
 void GpuScene::bind_buffers() const
 {
-    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 1);
-    vertex_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 2);
-    index_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 3);
+    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightBinding);
+    vertex_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVertexBinding);
+    index_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kIndexBinding);
 }
 
 void GpuScene::bind_lights(const gl::Program& program) const
 {
-    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 1);
+    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightBinding);
     program.set("light_count", int(lights_.size()));
 }
 
 void GpuScene::bind_material(const gl::Program& program, int material) const
 {
-    glBindBufferRange(GL_UNIFORM_BUFFER, 3, material_buffer_.id(), GLintptr(material) * GLintptr(kMaterialStride),
-                      sizeof(shared::MaterialData));
+    glBindBufferRange(GL_UNIFORM_BUFFER, shared::kMaterialBlock, material_buffer_.id(),
+                      GLintptr(material) * GLintptr(kMaterialStride), sizeof(shared::MaterialData));
     const auto& bindings = bindings_[std::size_t(material)];
     for (GLuint unit = 0; unit < bindings.size(); ++unit) {
         const BoundTexture& bound = bindings[unit];

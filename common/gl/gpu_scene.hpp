@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "common/bindings.glsl"
 #include "common/scene_structs.glsl"
 #include "gl/handles.hpp"
 #include "gl/shaders.hpp"
@@ -17,16 +18,16 @@ class GpuScene {
 public:
     explicit GpuScene(const Scene& scene);
 
-    // Bind buffers (lights: storage 1) and draw every triangle with `program`, material by material: uniform block 3,
+    // Bind buffers (kLightBinding) and draw every triangle with `program`, material by material: kMaterialBlock,
     // textures on units 0..6 (kBaseColorSlot ... kCoverageUnit).
     // Vertex attributes: 0 position, 1 normal, 2 tangent, 3 uv0, 4 uv1, 5 colour (see Vertex). For shaders that pull
-    // vertices themselves: uniform uint first_index, vertices on storage 2 (18 floats each), indices on storage 3.
+    // vertices themselves: uniform uint first_index, kVertexBinding (18 floats each), kIndexBinding.
     void draw(const gl::Program& program, Culling culling) const;
 
     // The same for compute shaders: dispatches one work group a triangle (uniform uint triangle_count).
     void dispatch_triangles(const gl::Program& program) const;
 
-    // Bind the light list (storage 1) and set uniform int light_count.
+    // Bind the light list (kLightBinding) and set uniform int light_count.
     void bind_lights(const gl::Program& program) const;
 
     const Bounds& bounds() const { return bounds_; }

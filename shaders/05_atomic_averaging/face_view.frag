@@ -1,12 +1,12 @@
 #version 450 core
 // Show a quantity of the faces of the voxels that the camera's ray meets.
 #include "common/camera_ray.glsl"
-#include "common/voxel_walk.glsl"
-#include "common/face_index.glsl"
+#include "04_conservative_voxelization/voxel_walk.glsl"
+#include "05_atomic_averaging/face_index.glsl"
 
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(binding = kPackedColorUnit) uniform usampler3D packed_color;  // RGBA8 in 32 bits, instead of the faces
-layout(std430, binding = 10) readonly buffer FaceWords { vec4 face_words[]; };
+layout(std430, binding = kFaceBinding) readonly buffer FaceWords { vec4 face_words[]; };
 uniform int stride, offset;   // in vec4, within face_words
 uniform int show;             // 0: colour, 1: direction as 0.5 n + 0.5, 2: alpha as grey, 3: packed_color, 4: their difference
 uniform bool has_packed;

@@ -5,17 +5,18 @@
 #include "common/brdf.glsl"
 #include "common/light.glsl"
 #include "common/voxel_counters.glsl"
-#include "common/voxel_walk.glsl"
+#include "04_conservative_voxelization/voxel_walk.glsl"
 #if SHADOWS == 1
 #include "common/shadow_map.glsl"
 #endif
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 1) readonly buffer LightBuffer { LightData lights[]; };
-layout(std430, binding = 8) readonly buffer FaceListBuffer { uint face_list[]; };
-layout(std430, binding = 10) readonly buffer FaceBuffer { VoxelFace faces[]; };
-layout(std430, binding = 11) writeonly buffer RadianceBuffer { vec4 face_radiance[]; };     // rgb L, a visibility
-layout(std430, binding = 12) writeonly buffer VisibilityBuffer { uint face_visibility[]; };  // 4 x 8 bit: lights 0..3
+layout(std430, binding = kLightBinding) readonly buffer LightBuffer { LightData lights[]; };
+layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
+layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
+// rgb L, a visible share of all lights; 4 x 8 bit: lights 0..3.
+layout(std430, binding = kRadianceBinding) writeonly buffer RadianceBuffer { vec4 face_radiance[]; };
+layout(std430, binding = kVisibilityBinding) writeonly buffer VisibilityBuffer { uint face_visibility[]; };
 uniform int light_count;
 uniform float soft_sharpness;  // voxels
 

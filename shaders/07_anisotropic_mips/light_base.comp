@@ -3,13 +3,13 @@
 #include "07_anisotropic_mips/store_light.glsl"
 #include "07_anisotropic_mips/projected_area.glsl"
 #include "common/voxel_counters.glsl"
-#include "common/face_index.glsl"
+#include "05_atomic_averaging/face_index.glsl"
 
 layout(local_size_x = 64) in;
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
-layout(std430, binding = 7) readonly buffer VoxelListBuffer { uint voxel_list[]; };
-layout(std430, binding = 10) readonly buffer FaceBuffer { VoxelFace faces[]; };
-layout(std430, binding = 11) readonly buffer RadianceBuffer { vec4 face_radiance[]; };
+layout(std430, binding = kVoxelListBinding) readonly buffer VoxelListBuffer { uint voxel_list[]; };
+layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
+layout(std430, binding = kRadianceBinding) readonly buffer RadianceBuffer { vec4 face_radiance[]; };
 
 uniform vec2 part;  // of radiance and emission: (1, 0) all, (1, -1) what is reflected, (0, 1) emitted, (0, 0) none
 

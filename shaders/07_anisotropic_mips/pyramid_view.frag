@@ -1,7 +1,7 @@
 #version 450 core
 // Show one level and direction of the pyramid: radiance, or coverage of the voxel's cross-section.
 #include "common/camera_ray.glsl"
-#include "common/voxel_walk.glsl"
+#include "04_conservative_voxelization/voxel_walk.glsl"
 #include "common/pyramid.glsl"
 
 layout(binding = kEmissionAtlasUnit) uniform sampler3D emission_atlas;

@@ -5,8 +5,8 @@
 #include "common/voxel_counters.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 8) readonly buffer FaceListBuffer { uint face_list[]; };
-layout(std430, binding = 12) readonly buffer VisibilityBuffer { uint face_visibility[]; };
+layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
+layout(std430, binding = kVisibilityBinding) readonly buffer VisibilityBuffer { uint face_visibility[]; };
 layout(rgba8, binding = 0) writeonly uniform image3D visibility_volume;
 
 void main()

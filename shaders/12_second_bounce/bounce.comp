@@ -7,9 +7,9 @@
 #endif
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 8) readonly buffer FaceListBuffer { uint face_list[]; };
-layout(std430, binding = 10) readonly buffer FaceBuffer { VoxelFace faces[]; };
-layout(std430, binding = 12) writeonly buffer GatheredBuffer { vec4 gathered[]; };
+layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
+layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
+layout(std430, binding = kGatheredBinding) writeonly buffer GatheredBuffer { vec4 gathered[]; };
 
 void main()
 {

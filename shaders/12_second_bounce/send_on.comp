@@ -3,16 +3,17 @@
 // L(k) = L(0) + rho E / pi
 #include "common/voxel_counters.glsl"
 #include "common/voxel_grid.glsl"
-#include "common/face_index.glsl"
+#include "05_atomic_averaging/face_index.glsl"
 
 layout(local_size_x = 64) in;
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
-layout(std430, binding = 8) readonly buffer FaceListBuffer { uint face_list[]; };
-layout(std430, binding = 10) readonly buffer FaceBuffer { VoxelFace faces[]; };
-layout(std430, binding = 11) readonly buffer DirectBuffer { vec4 direct_radiance[]; };  // L(0)
-layout(std430, binding = 12) readonly buffer GatheredBuffer { vec4 gathered[]; };
-layout(std430, binding = 13) buffer ChangeBuffer { uint largest_change, largest_radiance; };  // float bits, >= 0
-layout(std430, binding = 15) buffer BouncedBuffer { vec4 bounced_radiance[]; };  // L(k - 1), then L(k)
+layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
+layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
+layout(std430, binding = kRadianceBinding) readonly buffer DirectBuffer { vec4 direct_radiance[]; };  // L(0)
+layout(std430, binding = kGatheredBinding) readonly buffer GatheredBuffer { vec4 gathered[]; };
+// Float bits, >= 0.
+layout(std430, binding = kChangeBinding) buffer ChangeBuffer { uint largest_change, largest_radiance; };
+layout(std430, binding = kBouncedBinding) buffer BouncedBuffer { vec4 bounced_radiance[]; };  // L(k - 1), then L(k)
 
 // The series of bounces converges only when every surface keeps some light; a white of 1 would never settle.
 const float kMaxAlbedo = 0.99;

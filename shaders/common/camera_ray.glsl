@@ -1,7 +1,8 @@
 // The ray through the middle of a pixel, in scene space.
+#include "common/bindings.glsl"
 #include "common/scene_structs.glsl"
 
-layout(std140, binding = 0) uniform CameraBlock { CameraData camera; };
+layout(std140, binding = kCameraBlock) uniform CameraBlock { CameraData camera; };
 
 struct Ray {
     vec3 origin;

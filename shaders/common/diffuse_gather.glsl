@@ -4,7 +4,7 @@
 
 const int kMaxCones = 32 * 16;
 // xyz: direction in the frame of the normal (z), w: weight; cone_sets sets of cone_count, weights of each sum to 1.
-layout(std140, binding = 2) uniform ConeBlock { vec4 cones[kMaxCones]; };
+layout(std140, binding = kConeBlock) uniform ConeBlock { vec4 cones[kMaxCones]; };
 uniform int cone_count;
 uniform int cone_sets;
 uniform float tan_half_aperture;

@@ -2,7 +2,7 @@
 #include "common/brdf.glsl"
 #include "common/diffuse_gather.glsl"
 
-layout(std430, binding = 14) readonly buffer EmitterBuffer { EmitterPart emitters[]; };
+layout(std430, binding = kEmitterBinding) readonly buffer EmitterBuffer { EmitterPart emitters[]; };
 layout(binding = kOccupancyUnit) uniform usampler3D occupancy;
 uniform int emitters_per_set;
 

@@ -8,7 +8,8 @@
 #include "common/voxel_grid.glsl"
 
 layout(binding = kLightAtlasUnit) uniform sampler3D light_atlas;
-layout(std140, binding = 4) uniform PyramidBlock { float light_scale; };  // W/(sr m^2), 1 for formats that need none
+// W/(sr m^2), 1 for formats that need none.
+layout(std140, binding = kPyramidBlock) uniform PyramidBlock { float light_scale; };
 #ifdef SPLIT_COVERAGE
 const int kFetchesPerTexel = 2;
 layout(binding = kCoverageAtlasUnit) uniform sampler3D coverage_atlas;

@@ -1,8 +1,8 @@
 // Which voxels of one grid column a triangle overlaps: taught in chapter 04, used by every voxelization.
 #include "common/voxel_grid.glsl"
 
-layout(std430, binding = 2) readonly buffer VertexBuffer { float vertex_words[]; };  // 18 floats a vertex
-layout(std430, binding = 3) readonly buffer IndexBuffer { uint vertex_indices[]; };
+layout(std430, binding = kVertexBinding) readonly buffer VertexBuffer { float vertex_words[]; };  // 18 floats a vertex
+layout(std430, binding = kIndexBinding) readonly buffer IndexBuffer { uint vertex_indices[]; };
 uniform uint first_index;
 
 const int kVertexWords = 18;

@@ -1,4 +1,5 @@
-// What a triangle's vertices have besides their positions. Included after common/triangle_voxels.glsl.
+// What a triangle's vertices have besides their positions.
+// Included after 04_conservative_voxelization/triangle_voxels.glsl.
 // TEXTURES: 1 when some material of the scene has textures and needs the UV sets.
 struct TriangleAttributes {
     vec3 normal0, normal1, normal2;
