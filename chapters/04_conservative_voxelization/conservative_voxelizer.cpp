@@ -69,8 +69,10 @@ std::vector<gl::Resource> ConservativeVoxelizer::resources() const
     return resources;
 }
 
-void ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
+bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
 {
+    if (!made_from_.differs(scene.geometry_revision())) return false;
+    ++revision_;
     // Clear what the last frame marked.
     occupancy_.clear();
     statistics_.clear();
@@ -95,6 +97,7 @@ void ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
     }
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_SHADER_STORAGE_BARRIER_BIT);
+    return true;
 }
 
 VoxelViewPass::VoxelViewPass(gl::Shaders& shaders)

@@ -103,8 +103,10 @@ void VoxelFaces::make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& 
                     GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
+bool VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
 {
+    if (!made_from_.differs(voxelizer.revision())) return false;
+    ++revision_;
     make_lists(grid, voxelizer);
 
     // Add up the fragments of every face.
@@ -122,6 +124,7 @@ void VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const Conserv
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, face_groups_.id());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    return true;
 }
 
 void VoxelFaces::bind() const
@@ -154,9 +157,13 @@ const gl::Texture& FaceViewPass::run(const VoxelGrid& grid, const gl::Texture& o
     faces.face_index().bind(shared::kFaceIndexUnit);
     if (quantity.packed != nullptr) quantity.packed->bind(shared::kPackedColorUnit);
     if (quantity.buffer != nullptr) quantity.buffer->bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceBinding);
+    if (quantity.plus != nullptr) quantity.plus->bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBinding);
     program_.set("stride", quantity.stride);
     program_.set("offset", quantity.offset);
     program_.set("show", quantity.show);
+    program_.set("has_plus", quantity.plus != nullptr);
+    program_.set("plus_stride", quantity.plus_stride);
+    program_.set("plus_offset", quantity.plus_offset);
     program_.set("has_packed", quantity.packed != nullptr);
     gl::draw_pixels(program_, framebuffer_, no_vertices_, size);
     return color_;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include "gl/pixel_pass.hpp"
 
 namespace conebook {
 
@@ -54,30 +53,26 @@ void add_parameters(ParameterTable& table, EmitterParams& params)
     table.add("aimed_rays", params.aimed_rays, 0, 64, "", "rays aimed at emitters; 0: cones meet them by chance");
 }
 
-Emitters::Emitters(gl::Shaders& shaders, const Scene& scene, const VoxelGrid& grid,
-                   const ConservativeVoxelizer& voxelizer, const EmitterParams& params)
+Emitters::Emitters(gl::Shaders& shaders, const Scene& scene, const VoxelGrid& grid, const EmitterParams& params)
     : params_(params),
-      occupancy_(&voxelizer.occupancy()),
       emitting_share_(emitting_share(scene)),
       apart_(params.aimed_rays > 0 && emitting_share_ > 0.0f && emitting_share_ < kLargeShare)
 {
-    if (!apart_) return;
-    aimed_.emplace(shaders, std::vector<std::string>{"common/fullscreen.vert", "11_emissives/aimed.frag"},
-                   gl::Defines{{"PLAIN", "0"}, {"EMITTED", "1"}});
-    pyramid_.emplace(shaders, grid, PyramidParams{});
+    if (apart_) pyramid_.emplace(shaders, grid, PyramidParams{});
 }
 
-void Emitters::run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading)
+bool Emitters::run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading)
 {
-    if (!apart_) return;
-    pyramid_->prepare(grid, faces);
-    pyramid_->run(grid, faces, shading.radiance(), LightPart::emitted);
+    if (!made_from_.differs(faces.revision())) return false;
+    if (!apart_) return false;
+    ++revision_;
+    pyramid_->run(grid, faces, shading.radiance(), shading.revision(), LightPart::emitted);
 
     const auto means = faces.faces().read<shared::VoxelFace>();
     const std::vector<Emitter> emitters = emitters_of(faces.face_list().read<GLuint>(), means, faces.face_count());
     if (emitters.empty()) {
         parts_ = {};
-        return;
+        return true;
     }
 
     // snippet: parts
@@ -109,46 +104,27 @@ void Emitters::run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelSh
     // rays do not (disc above a plane: within 4.1 % of the closed form, with the whole 7.6 %).
     const double area = power * power / power_radiance;  // power over its mean radiance: equivalent area
     near_radius2_voxels_ = float(0.5 * area / std::numbers::pi);
+    return true;
 }
 
-EmittedLight Emitters::near_light() const
+std::string Emitters::shader_folder(const std::string& without) const { return apart_ ? "11_emissives" : without; }
+
+void Emitters::bind_all(const gl::Program& program) const
 {
-    return apart_ ? EmittedLight{&*pyramid_, parts_ ? near_radius2_voxels_ : kAllIsNear} : EmittedLight{};
+    if (!apart_) return;
+    pyramid_->bind_as_emission();
+    program.set("near_radius2", kAllIsNear);
 }
 
-EmittedLight Emitters::all_light() const { return apart_ ? EmittedLight{&*pyramid_, kAllIsNear} : EmittedLight{}; }
-
-void Emitters::bind(const gl::Program& program, const DiffuseConeUniforms& cones) const
+void Emitters::bind(const gl::Program& program, const ConeDirections& directions) const
 {
-    occupancy_->bind(shared::kOccupancyUnit);
+    if (!apart_) return;
+    pyramid_->bind_as_emission();
     if (parts_) parts_.bind(GL_SHADER_STORAGE_BUFFER, shared::kEmitterBinding);
-    program.set("emitters_per_set", !parts_                 ? 0
-                                    : cones.sets() == kSets ? params_.aimed_rays
-                                                            : kSets * params_.aimed_rays);
-    near_light().bind(program);
-}
-
-void Emitters::add_aimed(PyramidProgram& aimed, const GBuffer& g_buffer, const VoxelGrid& grid,
-                         const LightPyramid& pyramid, const DiffuseConeUniforms& cones, const ConeParams& params,
-                         const gl::Framebuffer& target) const
-{
-    if (!parts_) return;
-    g_buffer.bind();
-    grid.bind();
-    pyramid.bind();
-    const gl::Program& program = aimed.reading(pyramid);
-    cones.bind(program, params);
-    bind(program, cones);
-    gl::draw_pixels(program, target, no_vertices_, g_buffer.size(), gl::Write::add);
-}
-
-const gl::Texture& Emitters::gather(DiffuseCones& diffuse_cones, const GBuffer& g_buffer, const VoxelGrid& grid,
-                                    const LightPyramid& pyramid, const DiffuseConeUniforms& cones,
-                                    const ConeParams& params)
-{
-    diffuse_cones.gather(g_buffer, grid, pyramid, near_light(), cones, params);
-    if (parts_) add_aimed(*aimed_, g_buffer, grid, pyramid, cones, params, diffuse_cones.gathered_framebuffer());
-    return diffuse_cones.share(g_buffer, grid, cones);
+    const bool shared = directions.sets() > 1;
+    program.set("emitter_sets", shared ? kSets : 1);
+    program.set("emitters_per_set", !parts_ ? 0 : shared ? params_.aimed_rays : kSets * params_.aimed_rays);
+    program.set("near_radius2", parts_ ? near_radius2_voxels_ : kAllIsNear);
 }
 
 std::vector<gl::Resource> Emitters::resources() const

@@ -19,41 +19,34 @@ class Emitters {
 public:
     // Emission is kept apart where it is worth it: where something shines, and not so much of the scene that cones meet it
     // as well as aimed rays would.
-    Emitters(gl::Shaders& shaders, const Scene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
-             const EmitterParams& params);
+    Emitters(gl::Shaders& shaders, const Scene& scene, const VoxelGrid& grid, const EmitterParams& params);
 
     // What the pyramid of the voxels is to hold: all light, or what surfaces reflect where this keeps the rest.
     LightPart part_of_voxels() const { return apart_ ? LightPart::reflected : LightPart::all; }
     bool are_apart() const { return apart_; }
 
-    // From what the faces emit: the pyramid, and the parts to aim at; once for voxels that stay. Reads the faces back.
-    void run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
+    // From what the faces emit, if they have changed: the pyramid, and the parts to aim at. Reads the faces back.
+    bool run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
 
-    // For diffuse cones, which gather what is near, and for specular cones, which gather all.
-    EmittedLight near_light() const;
-    EmittedLight all_light() const;
+    // Where DiffuseCones and SpecularCones find the programs that they need: this chapter's where emission is apart,
+    // otherwise `without`.
+    std::string shader_folder(const std::string& without) const;
+    // For programs that include emitted_light.glsl and see emitters at any distance, as specular cones do.
+    void bind_all(const gl::Program& program) const;
+    // For programs that include gather_all.glsl: storage 6.
+    void bind(const gl::Program& program, const ConeDirections& directions) const;
+    Revision revision() const { return revision_; }
     const LightPyramid* pyramid() const { return pyramid_ ? &*pyramid_ : nullptr; }
-
-    // For programs that include common/emitters.glsl: storage 14, near_light().
-    void bind(const gl::Program& program, const DiffuseConeUniforms& cones) const;
-
-    // E / pi at every pixel of what all cones gather and the aimed rays bring; as DiffuseCones::run.
-    const gl::Texture& gather(DiffuseCones& diffuse_cones, const GBuffer& g_buffer, const VoxelGrid& grid,
-                              const LightPyramid& pyramid, const DiffuseConeUniforms& cones, const ConeParams& params);
-    // Draw for every pixel what the aimed rays bring, with aimed.frag or a variant of it, and add it to the target.
-    void add_aimed(PyramidProgram& aimed, const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid,
-                   const DiffuseConeUniforms& cones, const ConeParams& params, const gl::Framebuffer& target) const;
     std::vector<gl::Resource> resources() const;
     Need need() const;
 
 private:
     EmitterParams params_;
-    const gl::Texture* occupancy_;  // of the voxelizer
-    float emitting_share_;          // of the scene's area
+    float emitting_share_;  // of the scene's area
     bool apart_;
-    std::optional<PyramidProgram> aimed_;
     std::optional<LightPyramid> pyramid_;
-    gl::VertexArray no_vertices_;
+    MadeFrom<Revision> made_from_;  // faces
+    Revision revision_ = 0;
     gl::Buffer parts_;
     float near_radius2_voxels_ = 0.0f;
 };

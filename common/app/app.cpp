@@ -86,11 +86,32 @@ bool App::next_frame()
     return true;
 }
 
-shared::CameraData App::camera() const { return camera_data(camera_, size_); }
+namespace {
+
+// Van der Corput's radical inverse: the first two, of bases 2 and 3, are Halton's points.
+float radical_inverse(int base, int i)
+{
+    float value = 0.0f, digit = 1.0f / float(base);
+    for (; i > 0; i /= base, digit /= float(base)) value += digit * float(i % base);
+    return value;
+}
+
+}  // namespace
+
+int App::sample(bool accumulate, Revision light)
+{
+    const bool changed = seen_.differs(camera_.world_from_camera, size_, view_index_, info_.parameters.values(), accumulate, light);
+    sample_ = accumulate && !changed && view().encoding == Encoding::radiance ? sample_ + 1 : 0;
+    return sample_;
+}
+
+shared::CameraData App::camera() const
+{
+    const glm::vec2 offset(radical_inverse(2, sample_), radical_inverse(3, sample_));
+    return moved(camera_data(camera_, size_), offset - glm::round(offset));
+}
 
 const View& App::view() const { return info_.views[view_index_]; }
-
-void App::pass(const std::string& name, const std::function<void()>& work) { timer_.time(name, work, statistics_); }
 
 void App::write_picture(const gl::Texture& linear, const gl::Texture& display) const
 {

@@ -18,8 +18,9 @@ public:
     enum class Clock { cpu_around_finish, gpu_queries };
     explicit PassTimer(Clock clock) : clock_(clock) {}
 
-    // Do `work`, which times no pass itself: timer queries do not nest (OpenGL 4.5, 4.2.3).
-    void time(const std::string& pass, const std::function<void()>& work, Statistics& statistics);
+    // Do `work`, which says whether there was anything to do; if not, no time is counted. It times no pass itself: timer
+    // queries do not nest (OpenGL 4.5, 4.2.3).
+    void time(const std::string& pass, Scope scope, const std::function<bool()>& work, Statistics& statistics);
     // Hand over what has arrived of this and earlier frames, in the order in which the passes ran.
     void end_frame(Statistics& statistics);
     // Wait for all that is still on its way.
@@ -31,6 +32,7 @@ public:
 private:
     struct Pending {
         std::string pass;
+        Scope scope;
         int frame;
         gl::Handle<gl::delete_query> query;
     };

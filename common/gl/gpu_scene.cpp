@@ -5,6 +5,7 @@
 #include <map>
 
 #include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace conebook {
 
@@ -139,6 +140,25 @@ shared::CameraData camera_data(const Camera& camera, glm::ivec2 size)
     return data;
 }
 
+shared::CameraData moved(const shared::CameraData& camera, glm::vec2 pixels)
+{
+    if (pixels == glm::vec2(0.0f)) return camera;
+    const glm::vec2 clip = 2.0f * pixels * glm::vec2(camera.size.z, camera.size.w);
+    shared::CameraData data = camera;
+    data.clip_from_scene = glm::translate(glm::mat4(1.0f), glm::vec3(clip, 0.0f)) * camera.clip_from_scene;
+    data.scene_from_clip = camera.scene_from_clip * glm::translate(glm::mat4(1.0f), glm::vec3(-clip, 0.0f));
+    return data;
+}
+
+namespace {
+gl::Buffer light_buffer(const std::vector<Light>& lights)
+{
+    std::vector<shared::LightData> data;
+    for (const Light& light : lights) data.push_back(light_data(light));
+    return gl::Buffer("lights", data);
+}
+}  // namespace
+
 GpuScene::GpuScene(const Scene& scene)
     : triangle_count_(scene.triangle_count()),
       bounds_(scene.bounds),
@@ -154,9 +174,7 @@ GpuScene::GpuScene(const Scene& scene)
         has_emission_ = has_emission_ || m.emission != glm::vec3(0.0f) || m.unlit;
     }
     material_buffer_ = gl::Buffer("materials", materials);
-    std::vector<shared::LightData> lights;
-    for (const Light& light : scene.lights) lights.push_back(light_data(light));
-    light_buffer_ = gl::Buffer("lights", lights);
+    light_buffer_ = light_buffer(scene.lights);
 
     struct Attribute {
         GLint components;
@@ -199,6 +217,13 @@ GpuScene::GpuScene(const Scene& scene)
             bindings[shared::kCoverageUnit].sampler = gl::Handle<gl::delete_sampler>(make_sampler(slot));
         }
     }
+}
+
+void GpuScene::set_lights(const std::vector<Light>& lights)
+{
+    lights_ = lights;
+    light_buffer_ = light_buffer(lights_);
+    ++lights_revision_;
 }
 
 void GpuScene::bind_buffers() const

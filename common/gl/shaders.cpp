@@ -180,4 +180,11 @@ void Shaders::reload()
         }
 }
 
+const Program& ProgramVariants::with(const Defines& defines)
+{
+    Program& program = programs_[defines];
+    if (program.id() == 0) program = shaders_->load(files_, defines);
+    return program;
+}
+
 }  // namespace conebook::gl

@@ -54,4 +54,17 @@ private:
     std::vector<std::weak_ptr<Program::State>> programs_;
 };
 
+// The same files compiled with different defines, each when it is first asked for.
+class ProgramVariants {
+public:
+    // `shaders` must outlive this. Throws as Shaders::load does, when a variant is made.
+    ProgramVariants(Shaders& shaders, std::vector<std::string> files) : shaders_(&shaders), files_(std::move(files)) {}
+    const Program& with(const Defines& defines);
+
+private:
+    Shaders* shaders_;
+    std::vector<std::string> files_;
+    std::map<Defines, Program> programs_;
+};
+
 }  // namespace conebook::gl

@@ -22,6 +22,10 @@ CONEBOOK_CONSTANT int kFaceIndexUnit = 23;
 CONEBOOK_CONSTANT int kPackedColorUnit = 24;
 CONEBOOK_CONSTANT int kDirectionVolumeUnit = 24;  // six units
 CONEBOOK_CONSTANT int kEmissionAtlasUnit = 30;
+CONEBOOK_CONSTANT int kWalkVolumeUnit = 31;
+
+// Whole coverage in the walk volume, in its units: five bits, and one half is a whole number.
+CONEBOOK_CONSTANT float kWalkUnits = 30.0;
 
 // Face directions: 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z. A triangle belongs to the face that its normal is nearest to.
 CONEBOOK_CONSTANT int kFaceCount = 6;
