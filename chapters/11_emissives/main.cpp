@@ -7,7 +7,7 @@
 #include "01_first_light/tone_map.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
 #include "08_diffuse_cones/composite.hpp"
-#include "11_emissives/emitters.hpp"
+#include "11_emissives/emitter_light.hpp"
 #include "app/needs.hpp"
 
 using namespace conebook;
@@ -45,8 +45,9 @@ try {
     GBuffer g_buffer(app.shaders(), app.size());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
     ConeDirections directions;
-    DiffuseCones diffuse_cones(app.shaders(), emitters.shader_folder("08_diffuse_cones"));
-    SpecularCones specular_cones(app.shaders(), emitters.shader_folder("09_specular_cones"));
+    DiffuseCones diffuse_cones(app.shaders());
+    EmitterLight emitter_light(app.shaders());
+    SpecularCones specular_cones(app.shaders(), emitters.specular_folder());
     const bool reflective = has_specular_surfaces(app.scene());
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
@@ -80,13 +81,16 @@ try {
         const gl::Texture *gathered = nullptr, *specular = nullptr;
         app.pass("diffuse cones", [&] {
             directions.update(cone_params, 0);
-            gathered = &diffuse_cones.run(g_buffer, volumes, directions, cone_params, diffuse_params, 0,
-                                          [&](const gl::Program& program) { emitters.bind(program, directions); });
+            gathered = &diffuse_cones.run(g_buffer, volumes, directions, cone_params, diffuse_params);
+        });
+        app.pass("emitters' light", [&] {
+            gathered = &emitter_light.run(g_buffer, volumes, emitters, diffuse_cones, *gathered, cone_params);
+            return emitters.are_apart();
         });
         if (reflective)
             app.pass("specular cones", [&] {
-                specular = &specular_cones.run(g_buffer, volumes, cone_params, specular_params, 0,
-                                               [&](const gl::Program& program) { emitters.bind_all(program); });
+                emitters.bind_emission();
+                specular = &specular_cones.run(g_buffer, volumes, cone_params, specular_params);
             });
 
         // Sum.
