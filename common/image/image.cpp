@@ -9,10 +9,10 @@
 #include <string>
 #include <system_error>
 
-#include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
 #include <tinyexr.h>
 #include <unistd.h>
+
+#include "image/codecs.hpp"
 
 namespace conebook {
 namespace {
@@ -221,34 +221,22 @@ ImageF read_exr(const std::filesystem::path& file)
 void write_png(const std::filesystem::path& file, const Image8& image)
 {
     check_size(file, image, image.rgba.size(), 4);
-    Bytes bytes;
-    const auto append = [](void* context, void* data, int size) {
-        auto* out = static_cast<Bytes*>(context);
-        const auto* first = static_cast<const unsigned char*>(data);
-        out->insert(out->end(), first, first + size);
-    };
-    if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.rgba.data(), image.width * 4))
-        throw fault(file, "cannot be written: PNG encoding failed");
+    const Bytes bytes = encode_png(image);
     write_bytes(file, bytes.data(), bytes.size());
 }
 
 Image8 read_png(const std::filesystem::path& file)
 {
     const Bytes bytes = read_bytes(file);
-    static constexpr unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    if (bytes.size() < 8 || std::memcmp(bytes.data(), signature, 8) != 0) throw fault(file, "is not a PNG file");
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels) ||
-        std::int64_t(width) * height > kMaxPixels || std::int64_t(width) * height > std::int64_t(bytes.size()) * 8800)
-        throw fault(file, "broken PNG header");
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4), stbi_image_free);
-    if (!pixels) {
-        const char* reason = stbi_failure_reason();
-        throw fault(file, std::string("broken PNG data: ") + (reason ? reason : "unknown reason"));
+    if (codec_of(bytes) != Codec::png) throw fault(file, "is not a PNG file");
+    try {
+        const auto [width, height] = size_of_png(bytes);
+        if (std::int64_t(width) * height > kMaxPixels)
+            throw std::runtime_error("is too large: " + std::to_string(width) + "x" + std::to_string(height));
+        return decode_png(bytes);
+    } catch (const std::runtime_error& e) {
+        throw fault(file, e.what());
     }
-    return Image8{width, height,
-                  std::vector<std::uint8_t>(pixels.get(), pixels.get() + std::size_t(width) * height * 4)};
 }
 
 }  // namespace conebook

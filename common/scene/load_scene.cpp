@@ -233,7 +233,7 @@ Scene read_scene(const std::filesystem::path& file)
     for (const PlacedMesh& place : placed) append(scene, place);
 
     scene.materials = materials.materials;
-    scene.images = read_images(document, materials.image_sources);
+    scene.images = read_images(document, materials.images, scene.warnings);
     settle_blending(scene, materials);
     scene.cameras = read_cameras(document, nodes, scene.origin_ws, scene.warnings);
     scene.lights = read_lights(document, nodes, scene.origin_ws, scene.warnings);

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include <stb/stb_image_write.h>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
+#include "image/codecs.hpp"
 #include "scene/scene.hpp"
 #include "temporary_folder.hpp"
 
@@ -74,13 +74,8 @@ struct GltfBuilder {
     int add_node(nlohmann::json node) { return append("nodes", std::move(node)); }
     static std::string png(const std::vector<std::uint8_t>& rgba, int width, int height)
     {
-        std::string bytes;
-        stbi_write_png_to_func(
-            [](void* out, void* data, int size) {
-                static_cast<std::string*>(out)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-            },
-            &bytes, width, height, 4, rgba.data(), width * 4);
-        return bytes;
+        const std::vector<std::uint8_t> bytes = encode_png({width, height, rgba});
+        return {bytes.begin(), bytes.end()};
     }
     // A texture with its own PNG image in the buffer. RGBA, width x height.
     int add_texture(const std::vector<std::uint8_t>& rgba, int width, int height)

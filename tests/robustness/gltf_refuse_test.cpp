@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <functional>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
+#include "png_builder.hpp"
 #include "robustness/gltf_builder.hpp"
 
 namespace conebook::test {
@@ -27,16 +29,12 @@ json texture_of(GltfBuilder& gltf, const json& image)
     return image;
 }
 
-std::string big_endian(std::uint32_t value)
-{
-    return {static_cast<char>(value >> 24), static_cast<char>(value >> 16), static_cast<char>(value >> 8),
-            static_cast<char>(value)};
-}
-
 std::string png_header(std::uint32_t width, std::uint32_t height)
 {
-    return std::string("\x89PNG\r\n\x1a\n", 8) + std::string("\0\0\0\x0dIHDR", 8) + big_endian(width) +
-           big_endian(height) + std::string("\x08\x06\0\0\0", 5) + "crc!" + std::string("\0\0\0\0IDAT", 8);
+    PngBuilder png;
+    png.width = width;
+    png.height = height;
+    return png.header() + std::string("\0\0\0\0IDAT", 8);
 }
 
 const std::vector<Fault> faults = {
@@ -202,7 +200,7 @@ const std::vector<Fault> faults = {
     {"absurd_image",
      [](GltfBuilder& g) {
          // Padded until the pixels alone are the fault, not their number per byte.
-         texture_of(g, {{"bufferView", g.add_view(png_header(12000, 12000) + std::string(20'000, '\0'))}});
+         texture_of(g, {{"bufferView", g.add_view(png_header(12000, 12000) + std::string(600'000, '\0'))}});
      },
      "12000x12000"},
     {"cut_image",
@@ -270,6 +268,30 @@ TEST(GltfRefuseFile, WhatIsNoFileAtAll)
     ASSERT_EQ(mkfifo((folder.path() / "pipe.bin").c_str(), 0600), 0);
     const std::string gltf = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"pipe.bin"}]})";
     EXPECT_NE(refusal(write_file(folder.path() / "pipe.gltf", gltf)).find("not a regular file"), std::string::npos);
+}
+
+// Every way in which an image may be in a file; what damage is found is tests/codecs_test.cpp's.
+TEST(GltfRefuseFile, ADamagedImageIsNamed)
+{
+    const TemporaryFolder folder;
+    std::string png = GltfBuilder::png(std::vector<std::uint8_t>(16 * 16 * 4, 7), 16, 16);
+    png[png.size() - 20] = static_cast<char>(png[png.size() - 20] ^ 1);
+    write_file(folder / "wood.png", png);
+    for (const auto& [name, uri, expected] : {std::tuple("", "wood.png", "images[0] 'wood.png' is damaged: "),
+                                              {"bark", "wood.png", "images[0] 'bark' is damaged: "},
+                                              {"bark", "", "images[0] 'bark' is damaged: "}}) {
+        GltfBuilder gltf = one_triangle();
+        json image = json::object();
+        if (*name) image["name"] = name;
+        if (*uri) {
+            image["uri"] = uri;
+        } else {
+            image["bufferView"] = gltf.add_view(png);
+        }
+        texture_of(gltf, image);
+        const std::string error = refusal(write_file(folder / "test.glb", gltf.glb()));
+        EXPECT_NE(error.find(std::string("test.glb: ") + expected), std::string::npos) << error;
+    }
 }
 
 TEST(GltfRefuseFile, InstancingIsBounded)
