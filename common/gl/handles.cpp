@@ -1,5 +1,6 @@
 #include "gl/handles.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace conebook::gl {
@@ -10,6 +11,15 @@ void delete_framebuffer(GLuint id) { glDeleteFramebuffers(1, &id); }
 void delete_vertex_array(GLuint id) { glDeleteVertexArrays(1, &id); }
 void delete_query(GLuint id) { glDeleteQueries(1, &id); }
 void delete_sampler(GLuint id) { glDeleteSamplers(1, &id); }
+
+void set_label(GLenum kind, GLuint id, const std::string& text)
+{
+    GLint most = 0;  // bytes with the final 0, as Mesa counts; 256 at least
+    glGetIntegerv(GL_MAX_LABEL_LENGTH, &most);
+    std::size_t end = std::min(text.size(), std::size_t(most) - 1);
+    while (end > 0 && end < text.size() && (text[end] & 0xc0) == 0x80) --end;  // not within a character of UTF-8
+    glObjectLabel(kind, id, GLsizei(end), text.data());
+}
 
 namespace {
 
@@ -53,21 +63,25 @@ Buffer::Buffer(const std::string& label, std::size_t bytes, const void* data) : 
     glCreateBuffers(1, &id);
     handle_ = Handle<delete_buffer>(id);
     glNamedBufferStorage(id, GLsizeiptr(std::max<std::size_t>(bytes, 4)), data, GL_DYNAMIC_STORAGE_BIT);
-    glObjectLabel(GL_BUFFER, id, -1, label.c_str());
+    set_label(GL_BUFFER, id, label);
     if (data == nullptr) clear();
 }
 
 void Buffer::write(std::size_t offset, std::size_t bytes, const void* data) const
 {
-    glNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), data);
+    if (bytes > 0) glNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), data);
 }
 
-void Buffer::clear() const { glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr); }
+void Buffer::clear() const
+{
+    if (*this) glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
 
 void Buffer::bind(GLenum target, GLuint index) const { glBindBufferBase(target, index, id()); }
 
 void Buffer::read_bytes(std::size_t offset, std::size_t bytes, void* out) const
 {
+    if (bytes == 0) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), out);
 }
@@ -84,7 +98,7 @@ Texture::Texture(const std::string& label, GLenum target, GLenum internal_format
         glTextureStorage3D(id, levels, internal_format, size.x, size.y, size.z);
     if (glGetError() == GL_OUT_OF_MEMORY)
         throw std::runtime_error(label + ": no memory for a texture of " + std::to_string(bytes() >> 20) + " MiB");
-    glObjectLabel(GL_TEXTURE, id, -1, label.c_str());
+    set_label(GL_TEXTURE, id, label);
     set_filter(levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST, GL_NEAREST);
     set_wrap(GL_CLAMP_TO_EDGE);
 }
@@ -203,7 +217,7 @@ void Framebuffer::check(const std::string& label) const
     const GLenum status = glCheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
         throw std::runtime_error(label + ": framebuffer is not complete (" + std::to_string(status) + ")");
-    glObjectLabel(GL_FRAMEBUFFER, id(), -1, label.c_str());
+    set_label(GL_FRAMEBUFFER, id(), label);
 }
 
 void Framebuffer::attach_depth_layer(const Texture& depth, int layer) const

@@ -47,7 +47,11 @@ void delete_vertex_array(GLuint id);
 void delete_query(GLuint id);
 void delete_sampler(GLuint id);
 
-// Immutable storage of `bytes` bytes, zeroed or filled from `data`.
+// The name of an object in debuggers and messages, cut to what the driver takes: scenes name images as they like.
+void set_label(GLenum kind, GLuint id, const std::string& text);
+
+// Immutable storage of `bytes` bytes, zeroed or filled from `data`. One that was never made holds 0 bytes: it may be
+// bound, cleared and read like any other. Scenes without a voxel have such.
 class Buffer {
 public:
     Buffer() = default;

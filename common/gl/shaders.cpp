@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "gl/handles.hpp"
+
 namespace conebook::gl {
 
 struct Program::State {
@@ -170,7 +172,7 @@ GLuint link(const std::filesystem::path& root, const std::vector<std::string>& f
         glDeleteProgram(program);
         throw std::runtime_error("shader " + files.back() + ": " + log);
     }
-    glObjectLabel(GL_PROGRAM, program, -1, files.back().c_str());
+    set_label(GL_PROGRAM, program, files.back());
     return program;
 }
 

@@ -251,7 +251,9 @@ std::string one_line(std::string text)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
     }
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-    if (text.size() > 500) text = text.substr(0, 500) + " ...";
+    std::size_t end = 500;
+    while (end < text.size() && (text[end] & 0xc0) == 0x80) --end;  // not within a character of UTF-8
+    if (text.size() > end) text = text.substr(0, end) + " ...";
     return text;
 }
 
