@@ -1,5 +1,6 @@
 // reference: renders a scene with the CPU path tracer; the ground truth of the book (path_tracer.hpp).
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
@@ -65,7 +66,8 @@ int run(int argc, char** argv)
         throw std::runtime_error("--error needs at least 2 samples per pixel (--spp)");
 
     const Scene scene = load_scene(scene_file);
-    for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
+    const std::string name = std::filesystem::path(scene_file).filename().string();
+    for (const std::string& warning : scene.warnings) std::cerr << name << ": note: " << warning << "\n";
     const Camera camera = choose_camera(scene, camera_index);
     const bool terminal = isatty(STDERR_FILENO);
     if (terminal) options.progress = show_progress;
