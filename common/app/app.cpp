@@ -58,7 +58,6 @@ App::App(int argc, char** argv, ProgramInfo info)
     statistics_.add_needs({camera_need(scene_, options_.camera)});
     // The book's conventions for every pass: depth 1 near and 0 far, stored as float without loss.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     if (context_.glfw_window() != nullptr)
         window_ = std::unique_ptr<Window>(
             new Window{WindowInput(context_.glfw_window(), camera_, scene_.bounds), {}, 0});
@@ -87,7 +86,7 @@ bool App::next_frame()
     return true;
 }
 
-shared::CameraData App::camera() const { return camera_data(camera_, size_); }
+shared::CameraData App::camera() const { return camera_data(camera_, size_, scene_.bounds); }
 
 const View& App::view() const { return info_.views[view_index_]; }
 
