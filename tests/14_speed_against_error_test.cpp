@@ -44,7 +44,8 @@ public:
         pyramid.prepare(lit_.grid, lit_.faces);
         pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance());
         GBuffer g_buffer(shaders, {8, 8});
-        g_buffer.draw(lit_.scene, camera_data(at_point({0.03f, 0.8f, 0.03f}, {0.03f, 0.0f, 0.03f}), g_buffer.size()));
+        g_buffer.draw(lit_.scene, 
+                      camera_data(at_point({0.03f, 0.8f, 0.03f}, {0.03f, 0.0f, 0.03f}), g_buffer.size(), lit_.scene.bounds()));
         const SpecularCones specular(shaders);
         const Emitters emitters(shaders, {}, lit_.grid, lit_.voxelizer, {});
         FetchCounter counter(shaders, emitters.are_apart());

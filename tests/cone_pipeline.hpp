@@ -27,7 +27,7 @@ public:
         look(camera);
     }
 
-    void look(const Camera& camera) { g_buffer_.draw(lit_.scene, camera_data(camera, g_buffer_.size())); }
+    void look(const Camera& camera) { g_buffer_.draw(lit_.scene, camera_data(camera, g_buffer_.size(), lit_.scene.bounds())); }
 
     // rgb: E / pi, the cosine-weighted mean radiance over the hemisphere, W/(sr m^2); a: ambient.
     ImageF gathered(const ConeParams& params)

@@ -23,7 +23,7 @@ public:
         look(camera);
     }
 
-    void look(const Camera& camera) { g_buffer_.draw(lit_.scene, camera_data(camera, g_buffer_.size())); }
+    void look(const Camera& camera) { g_buffer_.draw(lit_.scene, camera_data(camera, g_buffer_.size(), lit_.scene.bounds())); }
 
     // Only what the faces emit by themselves stays in the pyramids.
     void keep_emission_alone()

@@ -66,6 +66,8 @@ public:
     {
     }
 
+    const Scene& scene() const { return tracer_.scene(); }
+
     // Along one ray of the camera, with `bounces` and `sky` as in PathTraceOptions.
     Sample sample(const Ray& camera, int bounces, const glm::vec3& sky, Pcg32& rng) const
     {
@@ -275,6 +277,7 @@ struct PathTracer::Work {
     Integrator integrator;
     int threads;
     Camera camera;
+    DepthRange depths{};
     PathTraceOptions options;
     std::vector<Accumulator> accumulators;  // a pixel's parts side by side
     std::vector<std::uint32_t> covered;     // samples that met geometry
@@ -294,6 +297,7 @@ void PathTracer::start(const Camera& camera, const PathTraceOptions& options)
     Work& w = *work_;
     const std::size_t pixels = std::size_t(options.width) * std::size_t(options.height);
     w.camera = camera;
+    w.depths = visible_depths(camera, w.integrator.scene().bounds);
     w.options = options;
     w.accumulators.assign(pixels * options.parts.size(), {});
     w.covered.assign(pixels, 0);
@@ -314,8 +318,8 @@ void PathTracer::Work::render_tile(int tile, int first_sample, int last_sample)
             for (int i = first_sample; i < last_sample; ++i) {
                 Pcg32 rng(options.seed, pixel, std::uint64_t(i));
                 const glm::vec2 jitter = rng.next_2d();
-                const Ray ray =
-                    camera_ray(camera, float(x) + jitter.x, float(y) + jitter.y, options.width, options.height);
+                const Ray ray = camera_ray(camera, depths, float(x) + jitter.x, float(y) + jitter.y, options.width,
+                                           options.height);
                 const Sample sample = integrator.sample(ray, options.bounces, options.sky, rng);
                 // end snippet
                 covered[pixel] += sample.covered;
