@@ -82,7 +82,10 @@ def check_links(root, pages, problems):
 
 
 def check_figures(root, shown, problems):
-    """Pictures, the lines of figures.txt and the pictures on pages must be the same set."""
+    """Pictures, the lines of figures.txt and the pictures on pages must be the same set.
+
+    Drawings (.svg) have no lines: tools/drawings makes them, and compares them itself.
+    """
     folder = root / "docs" / "figures"
     listing = folder / "figures.txt"
     lines = listing.read_text().splitlines() if listing.exists() else []
@@ -93,6 +96,7 @@ def check_figures(root, shown, problems):
         problems.append(f"docs/figures/figures.txt: {name} is listed, but there is no such picture (tools/gallery.py)")
     for name in sorted(present - listed):
         problems.append(f"docs/figures/{name}: figures.txt does not say how it is made")
+    present |= {path.name for path in folder.glob("*.svg")}
     for name in sorted(present - {path.name for path in shown if path.parent == folder}):
         problems.append(f"docs/figures/{name}: no page shows it")
 
