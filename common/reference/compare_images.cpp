@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "common/color_scales.glsl"
 #include "reference/flip.hpp"
 
 namespace conebook {
@@ -130,7 +131,7 @@ Image8 error_heatmap(const ImageF& image, const ImageF& reference)
     check_size(image, reference, "the picture");
     Image8 map{image.width, image.height, {}};
     map.rgba.reserve(image.pixels.size() * 4);
-    const auto byte = [](double x) { return std::uint8_t(std::lround(255.0 * std::clamp(x, 0.0, 1.0))); };
+    const auto byte = [](float x) { return std::uint8_t(std::lround(255.0f * x)); };
     for (std::size_t k = 0; k < image.pixels.size(); ++k) {
         const glm::dvec3 a(image.pixels[k]), b(reference.pixels[k]);
         const double i = a.x + a.y + a.z, r = b.x + b.y + b.z;
@@ -139,12 +140,8 @@ Image8 error_heatmap(const ImageF& image, const ImageF& reference)
             continue;
         }
         // (I - R)/(I + R) is +-1/2 at a factor of three; the second half of the scale goes on to white.
-        const double e = i + r > 0.0 ? 2.0 * (i - r) / (i + r) : 0.0;
-        const double strong = std::abs(e), beyond = std::max(0.0, strong - 1.0);
-        if (e >= 0.0)
-            map.rgba.insert(map.rgba.end(), {byte(strong), byte(0.35 * strong * strong + beyond), byte(beyond), 255});
-        else
-            map.rgba.insert(map.rgba.end(), {byte(beyond), byte(0.45 * strong * strong + beyond), byte(strong), 255});
+        const glm::vec3 c = color_scales::difference_color(i + r > 0.0 ? float(2.0 * (i - r) / (i + r)) : 0.0f);
+        map.rgba.insert(map.rgba.end(), {byte(c.r), byte(c.g), byte(c.b), 255});
     }
     return map;
 }
