@@ -401,6 +401,7 @@ PathTraceResult path_trace(const Scene& scene, const Camera& camera, const PathT
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     PathTracer tracer(scene, options.threads);
+    const double build_seconds = seconds();
     tracer.start(camera, options);
     for (int done = 0, pass = 0; done < options.spp; done += pass) {
         pass = std::min(kPassSpp, options.spp - done);
@@ -411,6 +412,7 @@ PathTraceResult path_trace(const Scene& scene, const Camera& camera, const PathT
         if (options.max_seconds > 0.0 && seconds() > options.max_seconds) break;
     }
     PathTraceResult result = tracer.result();
+    result.build_seconds = build_seconds;
     result.seconds = seconds();
     return result;
 }
