@@ -66,10 +66,11 @@ std::vector<VisibleSurface> visible_surfaces(const SceneTracer& tracer, const Ca
                                              int threads)
 {
     std::vector<VisibleSurface> surfaces(std::size_t(width) * std::size_t(height));
+    const DepthRange depths = visible_depths(camera, tracer.scene().bounds);
     for_each_row(height, threads, [&](int y) {
         for (int x = 0; x < width; ++x) {
             const auto hit =
-                tracer.intersect_camera(camera_ray(camera, float(x) + 0.5f, float(y) + 0.5f, width, height));
+                tracer.intersect_camera(camera_ray(camera, depths, float(x) + 0.5f, float(y) + 0.5f, width, height));
             if (hit)
                 surfaces[std::size_t(y) * std::size_t(width) + std::size_t(x)] = {
                     true, hit->position, hit->geometric_normal, hit->shading_normal, hit->brdf.rho};
