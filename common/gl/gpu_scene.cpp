@@ -113,7 +113,6 @@ shared::LightData light_data(const Light& light)
 
 shared::CameraData camera_data(const Camera& camera, glm::ivec2 size, const Bounds& content)
 {
-    // snippet: camera_data
     // In double precision, rounded once at the end: from 100 km away the scene's 2 m are a difference of large numbers.
     const glm::dmat4 scene_from_view(camera.world_from_camera), view_from_scene = glm::affineInverse(scene_from_view);
     const auto [near, far] = visible_depths(camera, content);
@@ -125,7 +124,6 @@ shared::CameraData camera_data(const Camera& camera, glm::ivec2 size, const Boun
     shared::CameraData data{};
     data.clip_from_scene = clip_from_view * view_from_scene;
     data.scene_from_clip = scene_from_view * glm::inverse(clip_from_view);
-    // end snippet
     data.position = glm::vec4(glm::vec3(camera.world_from_camera[3]), camera.orthographic ? 0.0f : 1.0f);
     const double in_front = std::min(near - double(camera.z_near), double(glm::length(content.extent())));
     data.forward = glm::vec4(-glm::vec3(camera.world_from_camera[2]), in_front);

@@ -28,11 +28,9 @@ vec3 atlas_place(int face, vec3 p, int level)
 }
 
 // A voxel's own, and between the middles of voxels; p in voxels of the level, half a voxel inside the level's sides.
-// snippet: light_at
 vec4 light_of(int face, ivec3 voxel, int level) { return WITH_COVERAGE(texelFetch, atlas_texel(face, voxel, level), level); }
 vec4 light_at(int face, vec3 p, int level) { return WITH_COVERAGE(textureLod, atlas_place(face, p, level), float(level)); }
 float coverage_at(int face, vec3 p, int level) { return COVERAGE(textureLod, atlas_place(face, p, level), float(level)); }
-// end snippet
 vec3 emission_of(int face, ivec3 voxel, int level) { return texelFetch(emission_atlas, atlas_texel(face, voxel, level), level).rgb; }
 vec3 emission_at(int face, vec3 p, int level) { return textureLod(emission_atlas, atlas_place(face, p, level), float(level)).rgb; }
 

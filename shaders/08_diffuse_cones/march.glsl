@@ -59,5 +59,12 @@ ConeLight trace_cone(RayStart start, vec3 direction, float tan_half, float thres
         t += stride;
     }
     // end snippet
+    // What is left of a cone that leaves the bounds through a wall is an error of the steps.
+    if (open > 0.0 && closed_at(walk_ray(start.position, direction), start.position, exit)) {
+        vec4 wall = sample_level(start.position + direction * exit, direction, 0, exit);
+        radiance += open * light_scale * wall.rgb / max(wall.a, 1e-6);
+        occlusion += open * occlusion_at(exit);
+        open = 0.0;
+    }
     return ConeLight(radiance + open * sky_radiance, occlusion);
 }

@@ -129,7 +129,7 @@ bool closed_at(WalkRay ray, vec3 origin, float exit)
 
 // Where a ray ends: in the first run of occupied cells in which the coverage that it has met passes `threshold`, at the
 // run's mean distance. With thresholds spread evenly over 0 .. kStopped among the rays of a pixel and its neighbours, what
-// covers a third stops a third of them: linear transmittance of opaque surfaces (Vicini et al. 2021, section 4).
+// covers a third stops a third of them, or rather 1 / kStopped times as many: linear transmittance of opaque surfaces (Vicini et al. 2021, section 4).
 struct WalkEnd {
     bool stopped;
     float t;  // voxels

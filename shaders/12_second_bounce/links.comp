@@ -29,11 +29,11 @@ float hashed(uint seed)
 
 // One of the faces round `position`, each with a probability in proportion to what it shows to the ray: its area times
 // -n.d, by the trilinear weight of its voxel. `u`: uniform in 0..1.
-// snippet: face_met
 uint face_met(vec3 position, vec3 direction, float u)
 {
     vec3 low = floor(grid.content_min.xyz) + 0.5, high = ceil(grid.content_max.xyz) - 0.5;
     vec3 p = clamp(position, low, high) - 0.5, first = floor(p), part = p - first;
+    // snippet: face_met
     uint chosen = kNoLink;
     float total = 0.0;
     for (int i = 0; i < 8; ++i) {
@@ -52,9 +52,9 @@ uint face_met(vec3 position, vec3 direction, float u)
             u = taken ? u / share : (u - share) / max(1.0 - share, 1e-6);
         }
     }
+    // end snippet
     return chosen;
 }
-// end snippet
 
 void main()
 {
