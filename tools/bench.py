@@ -173,7 +173,8 @@ def draw(data, file):
         axis.tick_params(axis="x", labelrotation=20)
     for axis in axes[2]:
         axis.axis("off")
-    axes[2][0].legend(*axes[0][0].get_legend_handles_labels(), fontsize=7, ncols=5, loc="upper left", borderaxespad=0)
+    legend = axes[2][0].legend(*axes[0][0].get_legend_handles_labels(), fontsize=7, ncols=5, loc="upper left", borderaxespad=0)
+    legend.set_in_layout(False)  # it is wider than its column
     save(plt, figure, file)
 
 

@@ -29,8 +29,8 @@ def parameters_by_name(listing):
 
 
 def timed_trace(said):
-    """(samples a pixel, seconds for them, seconds to build) of what `reference` prints."""
-    match = re.search(r"(\d+) samples per pixel, .*?(\S+) s and (\S+) s to build", said)
+    """(samples a pixel, seconds for them, seconds in all) of what `reference` prints."""
+    match = re.search(r"(\d+) samples per pixel, .*?(\S+) s for the samples, (\S+) s in all", said)
     if not match:
         raise Failed(f"reference printed no times: {said.strip()}")
     return int(match.group(1)), float(match.group(2)), float(match.group(3))
@@ -109,7 +109,7 @@ class Bench:
     def trace_for(self, scene, size, target_ms, share):
         """The path tracer with the number of samples whose time is nearest to `target_ms`: (picture, samples, ms, command).
 
-        Nearest to within a tenth, or the best of a few tries; at least one sample. Loading and building do not count."""
+        Nearest to within a tenth, or the best of a few tries; at least one sample. Loading, building and making pictures of sums do not count."""
         spp, tried = 4, {}
         for _ in range(TRIES):
             picture, taken_ms, command = self.trace(scene, size, spp, share)

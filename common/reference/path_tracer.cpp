@@ -401,8 +401,8 @@ PathTraceResult path_trace(const Scene& scene, const Camera& camera, const PathT
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     PathTracer tracer(scene, options.threads);
-    const double build_seconds = seconds();
     tracer.start(camera, options);
+    double sample_seconds = -seconds();
     for (int done = 0, pass = 0; done < options.spp; done += pass) {
         pass = std::min(kPassSpp, options.spp - done);
         std::function<void(double)> progress;
@@ -411,8 +411,9 @@ PathTraceResult path_trace(const Scene& scene, const Camera& camera, const PathT
         tracer.add_samples(pass, {}, progress);
         if (options.max_seconds > 0.0 && seconds() > options.max_seconds) break;
     }
+    sample_seconds += seconds();
     PathTraceResult result = tracer.result();
-    result.build_seconds = build_seconds;
+    result.sample_seconds = sample_seconds;
     result.seconds = seconds();
     return result;
 }

@@ -35,23 +35,23 @@ void show_progress(double done, double seconds)
 constexpr const char* kParts[] = {"direct", "indirect_diffuse", "indirect_specular", "emission"};
 constexpr float kVoxelsAcross = 128.0f;  // chapter 08's default: its planes are a voxel thick
 
-// All of the light, or its indirect diffuse part, with that part shared among neighbours: takes the place of the pictures.
-void share(PathTraceResult& result, const std::vector<Part>& parts, const Scene& scene, const Camera& camera,
-           int threads)
+// Neighbours share the indirect diffuse light. `result`: of that part alone, or of that and of all light, whose picture then
+// comes first.
+void share(PathTraceResult& result, const Scene& scene, const Camera& camera, int threads)
 {
-    const auto start = std::chrono::steady_clock::now();
     const SceneTracer tracer(scene, threads);
-    const auto built = std::chrono::steady_clock::now();
-    ImageF& sum = result.pictures[0];
-    const std::vector<VisibleSurface> surfaces = visible_surfaces(tracer, camera, sum.width, sum.height, threads);
+    const auto start = std::chrono::steady_clock::now();
+    const ImageF own = std::move(result.pictures.back());
+    const std::vector<VisibleSurface> surfaces = visible_surfaces(tracer, camera, own.width, own.height, threads);
     const float plane_tolerance = scene.bounds.longest_side() / kVoxelsAcross;
-    sum = share_indirect_diffuse(sum, surfaces, plane_tolerance, threads);
-    for (std::size_t p = 1; p < parts.size(); ++p)
-        for (std::size_t i = 0; i < sum.pixels.size(); ++i)
-            sum.pixels[i] += glm::vec4(glm::vec3(result.pictures[p].pixels[i]), 0.0f);
-    const auto end = std::chrono::steady_clock::now();
-    result.build_seconds += std::chrono::duration<double>(built - start).count();
-    result.seconds += std::chrono::duration<double>(end - start).count();
+    ImageF shared = share_indirect_diffuse(own, surfaces, plane_tolerance, threads);
+    if (result.pictures.size() == 2)
+        for (std::size_t i = 0; i < own.pixels.size(); ++i)
+            shared.pixels[i] += glm::vec4(glm::vec3(result.pictures[0].pixels[i] - own.pixels[i]), 0.0f);
+    result.pictures[0] = std::move(shared);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.sample_seconds += seconds;
+    result.seconds += seconds;
 }
 
 int run(int argc, char** argv)
@@ -100,7 +100,7 @@ int run(int argc, char** argv)
         if (!error_file.empty())
             throw std::runtime_error("--share: a shared picture has no standard error, leave out --error");
         if (options.parts[0] == Part::final)
-            options.parts = {Part::indirect_diffuse, Part::direct, Part::indirect_specular, Part::emission};
+            options.parts = {Part::final, Part::indirect_diffuse};
         else if (options.parts[0] != Part::indirect_diffuse)
             throw std::runtime_error("--share: only --part final and indirect_diffuse hold what is shared");
     }
@@ -116,7 +116,7 @@ int run(int argc, char** argv)
     const bool terminal = isatty(STDERR_FILENO);
     if (terminal) options.progress = show_progress;
     PathTraceResult result = path_trace(scene, camera, options);
-    if (shared) share(result, options.parts, scene, camera, options.threads);
+    if (shared) share(result, scene, camera, options.threads);
     if (terminal) std::fprintf(stderr, "\r%30s\r", "");
     if (result.non_finite > 0)
         throw std::runtime_error(scene_file + ": " + std::to_string(result.non_finite) +
@@ -131,9 +131,9 @@ int run(int argc, char** argv)
         write_exr(part_file(i, ""), result.pictures[i + 1]);
         if (!error_file.empty()) write_exr(part_file(i, "_error"), result.errors[i + 1]);
     }
-    std::printf("%s: %s%s, %dx%d, %d samples per pixel, %d bounces, %.3f s and %.3f s to build\n", output.c_str(),
-                part.c_str(), shared ? ", shared" : "", options.width, options.height, result.spp, options.bounces,
-                result.seconds - result.build_seconds, result.build_seconds);
+    std::printf("%s: %s%s, %dx%d, %d samples per pixel, %d bounces, %.3f s for the samples, %.3f s in all\n",
+                output.c_str(), part.c_str(), shared ? ", shared" : "", options.width, options.height, result.spp,
+                options.bounces, result.sample_seconds, result.seconds);
     if (shared) return 0;  // what follows is of independent pixels
     const MeanWithError mean = mean_radiance(result.pictures[0], result.errors[0]);
     glm::dvec3 pixel_error(0.0);

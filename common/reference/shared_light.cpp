@@ -1,7 +1,10 @@
 #include "reference/shared_light.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 #include <thread>
@@ -24,38 +27,48 @@ void for_each_row(int rows, int threads, const std::function<void(int)>& work)
         });
 }
 
-struct LightAndAlbedo {
-    glm::vec3 light{0.0f}, rho{0.0f};
-};
+// One number of every pixel; loops over rows of them are what compilers turn into vector instructions.
+using Plane = std::vector<float>;
+
+// Position, geometric and shading normal. Where nothing is seen the normals are 0, which are like no other.
+using Surfaces = std::array<Plane, 9>;
+using LightAndAlbedo = std::array<Plane, 6>;
 
 // One direction of the tent: the means of light and albedo over what lies on the surface of each pixel.
-std::vector<LightAndAlbedo> tent(const std::vector<LightAndAlbedo>& in, const std::vector<VisibleSurface>& surfaces,
-                                 int width, int height, glm::ivec2 along, float plane_tolerance, int threads)
+LightAndAlbedo tent(const LightAndAlbedo& in, const Surfaces& s, int width, int height, glm::ivec2 along,
+                    float plane_tolerance, int threads)
 {
-    std::vector<LightAndAlbedo> out(in.size());
+    LightAndAlbedo out;
+    for (Plane& plane : out) plane.assign(in[0].size(), 0.0f);
     for_each_row(height, threads, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            const std::size_t here = std::size_t(y) * std::size_t(width) + std::size_t(x);
-            const VisibleSurface& center = surfaces[here];
-            if (!center.covered) continue;
-            LightAndAlbedo sum;
-            float weights = 0.0f;
-            for (int i = -kReach; i <= kReach; ++i) {
-                const glm::ivec2 other = glm::ivec2(x, y) + i * along;
-                if (other.x < 0 || other.y < 0 || other.x >= width || other.y >= height) continue;
-                const std::size_t there = std::size_t(other.y) * std::size_t(width) + std::size_t(other.x);
-                const VisibleSurface& neighbour = surfaces[there];
-                const float off_plane = glm::dot(neighbour.position - center.position, center.geometric_normal);
-                if (!neighbour.covered || std::abs(off_plane) >= plane_tolerance ||
-                    glm::dot(neighbour.shading_normal, center.shading_normal) <= kMinCosine)
-                    continue;
-                const float weight = float(kReach + 1 - std::abs(i));
-                sum.light += weight * in[there].light;
-                sum.rho += weight * in[there].rho;
-                weights += weight;
+        Plane weights(std::size_t(width), 0.0f), row_weights(std::size_t(width), 0.0f);
+        const auto row = std::ptrdiff_t(y) * width;
+        for (int i = -kReach; i <= kReach; ++i) {
+            if (y + i * along.y < 0 || y + i * along.y >= height) continue;
+            const auto step = std::ptrdiff_t(i) * (along.x + along.y * width);
+            const int first = std::max(0, -i * along.x), last = std::min(width, width - i * along.x);
+            const float tent_weight = float(kReach + 1 - std::abs(i));
+            const auto here = [&](int k) { return s[std::size_t(k)].data() + row; };
+            const auto there = [&](int k) { return s[std::size_t(k)].data() + row + step; };
+            const float *x = here(0), *y0 = here(1), *z = here(2), *gx = here(3), *gy = here(4), *gz = here(5);
+            const float *nx = here(6), *ny = here(7), *nz = here(8), *ox = there(0), *oy = there(1), *oz = there(2);
+            const float *mx = there(6), *my = there(7), *mz = there(8);
+            for (int p = first; p < last; ++p) {
+                const float off_plane = (ox[p] - x[p]) * gx[p] + (oy[p] - y0[p]) * gy[p] + (oz[p] - z[p]) * gz[p];
+                const float cosine = mx[p] * nx[p] + my[p] * ny[p] + mz[p] * nz[p];
+                const bool same = (std::abs(off_plane) < plane_tolerance) & (cosine > kMinCosine);
+                weights[std::size_t(p)] = same ? tent_weight : 0.0f;
+                row_weights[std::size_t(p)] += weights[std::size_t(p)];
             }
-            out[here] = {sum.light / weights, sum.rho / weights};
+            for (std::size_t k = 0; k < in.size(); ++k) {
+                float* sum = out[k].data() + row;
+                const float* value = in[k].data() + row + step;
+                for (int p = first; p < last; ++p) sum[p] += weights[std::size_t(p)] * value[p];
+            }
         }
+        for (Plane& plane : out)
+            for (int p = 0; p < width; ++p)
+                plane[std::size_t(row + p)] /= std::max(row_weights[std::size_t(p)], 1e-20f);
     });
     return out;
 }
@@ -85,17 +98,29 @@ ImageF share_indirect_diffuse(const ImageF& indirect_diffuse, const std::vector<
     if (surfaces.size() != indirect_diffuse.pixels.size())
         throw std::logic_error("share_indirect_diffuse: another number of surfaces than of pixels");
     const int width = indirect_diffuse.width, height = indirect_diffuse.height;
-    std::vector<LightAndAlbedo> values(surfaces.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = {glm::vec3(indirect_diffuse.pixels[i]), surfaces[i].rho};
+    const std::size_t pixels = surfaces.size();
+    Surfaces planes;
+    LightAndAlbedo values;
+    for (Plane& plane : planes) plane.resize(pixels);
+    for (Plane& plane : values) plane.resize(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const VisibleSurface& s = surfaces[i];
+        const glm::vec3 parts[] = {s.position, s.covered ? s.geometric_normal : glm::vec3(0.0f),
+                                   s.covered ? s.shading_normal : glm::vec3(0.0f)};
+        for (int c = 0; c < 3; ++c) {
+            for (int part = 0; part < 3; ++part) planes[std::size_t(3 * part + c)][i] = parts[part][c];
+            values[std::size_t(c)][i] = indirect_diffuse.pixels[i][c];
+            values[std::size_t(3 + c)][i] = s.rho[c];
+        }
+    }
     for (const glm::ivec2 along : {glm::ivec2(1, 0), glm::ivec2(0, 1)})
-        values = tent(values, surfaces, width, height, along, plane_tolerance, threads);
+        values = tent(values, planes, width, height, along, plane_tolerance, threads);
     ImageF shared = indirect_diffuse;
-    for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t i = 0; i < pixels; ++i) {
         if (!surfaces[i].covered) continue;  // an edge whose middle sees nothing keeps what it has
         for (int c = 0; c < 3; ++c)
-            if (values[i].rho[c] > 0.0f)
-                shared.pixels[i][c] = values[i].light[c] * surfaces[i].rho[c] / values[i].rho[c];
+            if (const float rho = values[std::size_t(3 + c)][i]; rho > 0.0f)
+                shared.pixels[i][c] = values[std::size_t(c)][i] * surfaces[i].rho[c] / rho;
     }
     return shared;
 }
