@@ -97,28 +97,6 @@ TEST(Fetches, OfOneNarrowConeAreThoseOfItsLeaps)
     }
 }
 
-TEST(Fetches, OfASetOfConesAreTheSumOfTheirs)
-{
-    const TemporaryFolder folder;
-    const std::filesystem::path file = write_open_floor(folder.path(), 0.5, 1.5f);
-    const OpenFloor floor(file, 96);
-    for (const int cones : {6, 16}) {
-        // In 4 x 4 points each of the 16 sets comes once. The frame of a normal (0, 1, 0) is x -> x, y -> -z, z -> y.
-        const ConeSet all = make_interleaved_cones(cones, ConeTable::tilted, glm::radians(6.0), 16);
-        double expected = 0.0;
-        for (const glm::vec4& cone : all.cones)
-            expected += floor.texels(double(ConeParams{}.start_offset), glm::dvec3(cone.x, cone.z, -cone.y)) / 16.0;
-        for (const int scale : {1, 2}) {
-            const nlohmann::json stats = counted(file, "voxels=96 cones=" + std::to_string(cones) +
-                                                           " gather_scale=" + std::to_string(scale));
-            // Pixels see the floor at places that are up to a millimetre apart: single cones take one leap more or less.
-            EXPECT_NEAR(value_of(stats, "walk steps per point, diffuse"), expected, 0.01 * expected) << cones;
-            EXPECT_EQ(value_of(stats, "fetches per point, diffuse"), 0.0);
-            EXPECT_EQ(value_of(stats, "points that gather, per pixel"), 1.0 / (scale * scale));
-        }
-    }
-}
-
 // In a closed room every cone ends once, where it reads the three faces that look against it, of rgba in one texel or of
 // coverage and light apart.
 TEST(Fetches, OfAClosedRoomAreThreeFacesACone)

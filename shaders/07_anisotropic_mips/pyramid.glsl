@@ -11,10 +11,12 @@ layout(binding = kLightAtlasUnit) uniform sampler3D light_atlas;
 layout(binding = kEmissionAtlasUnit) uniform sampler3D emission_atlas;
 layout(std140, binding = kPyramidBlock) uniform PyramidBlock { float light_scale; };  // W/(sr m^2), 1 for formats that need none
 #ifdef SPLIT_COVERAGE
+const int kTexelsPerFetch = 2;  // for those who count
 layout(binding = kCoverageAtlasUnit) uniform sampler3D coverage_atlas;
 #define WITH_COVERAGE(fetch, place, level) vec4(fetch(light_atlas, place, level).rgb, fetch(coverage_atlas, place, level).r)
 #define COVERAGE(fetch, place, level) fetch(coverage_atlas, place, level).r
 #else
+const int kTexelsPerFetch = 1;
 #define WITH_COVERAGE(fetch, place, level) fetch(light_atlas, place, level)
 #define COVERAGE(fetch, place, level) fetch(light_atlas, place, level).a
 #endif
