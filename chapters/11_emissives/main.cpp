@@ -1,7 +1,6 @@
-// 11_emissives: surfaces that shine light the room: cones gather those nearby, rays are aimed at those far away.
+// 11_emissives: surfaces that shine light the room: exactly where nothing is in the way, and rays say what arrives.
 //
-//     E = sum_parts Le A cos cos' V / (d^2 + A / pi)   for parts of area A; a disc of radius R at height h above a plane
-//     gives E = pi Le R^2 / (R^2 + h^2)
+//     E = sum_triangles Le / 2 sum_edges angle (n . normal of the edge's plane)  x  arriving / unshadowed of shared rays
 //
 // Page: docs/11_emissives.md
 #include "01_first_light/tone_map.hpp"
