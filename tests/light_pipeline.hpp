@@ -50,8 +50,8 @@ public:
     {
         SoftShadowLighting lighting(test_gl().shaders);
         params.shadows = int(method);
-        return read_picture(lighting.run(g_buffer_, lit_.scene, lit_.grid, lit_.faces, lit_.shading, lit_.pyramid,
-                                         lit_.shadow_maps, cone_params, params, show_visibility));
+        return read_picture(lighting.run(g_buffer_, lit_.scene, {lit_.grid, lit_.pyramid, walk_}, lit_.faces,
+                                         lit_.shading, lit_.shadow_maps, cone_params, params, show_visibility));
     }
     // rgb: E / pi, the cosine-weighted mean radiance over the hemisphere, W/(sr m^2); a: ambient.
     ImageF gathered(const ConeParams& params)

@@ -47,8 +47,9 @@ void CameraLight::see(App& app, const GpuScene& scene)
     g_buffer_.resize(app.size());
     app.pass("g-buffer", [&] { g_buffer_.draw(scene, app.camera()); });
     app.pass("direct light", [&] {
-        direct_ = &direct_lighting_.run(g_buffer_, scene, light_.voxels(), light_.shadow_maps(), params_.cones,
-                                        params_.shadows, false);
+        direct_ = &direct_lighting_.run(g_buffer_, scene, light_.volumes(), light_.voxels().faces(),
+                                        light_.voxels().shading(), light_.shadow_maps(), params_.cones, params_.shadows,
+                                        false);
     });
 }
 
