@@ -54,7 +54,7 @@ try {
     ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
     VoxelFaces faces(app.shaders(), grid, voxelizer);
     std::vector<NaiveAverage> naive;
-    if (averaging != int(Averaging::sums)) naive.emplace_back(app.shaders(), scene, grid, Averaging(averaging));
+    if (averaging != int(Averaging::sums)) naive.emplace_back(app.shaders(), grid, Averaging(averaging));
     FaceViewPass face_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
     ChangeCounter changes;
@@ -88,7 +88,7 @@ try {
     const shared::VoxelStatistics counted = faces.counted();
     std::vector<Count> counts = {{"occupied voxels", double(counted.voxels), ""},
                                  {"occupied faces", double(counted.faces), ""},
-                                 {"fragments", double(counted.fragments), ""},
+                                 {"fragments", double(voxelizer.fragment_count()), ""},
                                  {"triangles without area", double(counted.degenerate), ""}};
     if (!naive.empty()) counts.push_back({"RMS error of the naive mean", rms_error(naive.front(), faces), ""});
     if (count_changes) counts.push_back({"values that changed between frames", changes.most_changed(), ""});

@@ -12,12 +12,12 @@ enum class Averaging : int { sums = 0, compare_and_swap = 1, racing_store = 2 };
 class NaiveAverage {
 public:
     // `averaging`: compare_and_swap or racing_store.
-    NaiveAverage(gl::Shaders& shaders, const GpuScene& scene, const VoxelGrid& grid, Averaging averaging);
+    NaiveAverage(gl::Shaders& shaders, const VoxelGrid& grid, Averaging averaging);
     void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
     const gl::Texture& color() const { return color_; }  // r32ui holding RGBA8, A the number of fragments
 
 private:
-    gl::Program program_;
+    FragmentPrograms programs_;
     gl::Texture color_;
 };
 

@@ -32,7 +32,7 @@ vec3 barycentric(GridTriangle t, vec3 p)
     return b / (b.x + b.y + b.z);
 }
 
-#if TEXTURES
+#if UV
 // Level of detail at which a texel is as large as the fragment: half the log2 of the texels on it.
 float fragment_lod(GridTriangle t, TriangleAttributes a, float area, ivec2 texels)
 {
@@ -53,23 +53,28 @@ VoxelMaterial voxel_material(GridTriangle t, TriangleAttributes a, vec3 point, f
     vec4 base = m.base_color * color;
     vec3 emission = m.emission.rgb;
     float metallic = m.metallic, roughness = m.roughness;
-#if TEXTURES
+#if UV
     vec4 uv = a.uv0 * b.x + a.uv1 * b.y + a.uv2 * b.z;
 #define SAMPLE_SLOT(t2d, slot) \
     textureLod(t2d, texture_uv(m, slot, uv.xy, uv.zw), fragment_lod(t, a, area, textureSize(t2d, 0)))
+#endif
+#if BASE_COLOR_TEXTURE
     base *= SAMPLE_SLOT(base_color_texture, kBaseColorSlot);
+#endif
+#if METALLIC_ROUGHNESS_TEXTURE
     vec4 metallic_roughness = SAMPLE_SLOT(metallic_roughness_texture, kMetallicRoughnessSlot);
     metallic *= metallic_roughness.b;
     roughness *= metallic_roughness.g;
+#endif
+#if EMISSION_TEXTURE
     emission *= SAMPLE_SLOT(emission_texture, kEmissionSlot).rgb;
-    bool mask_is_texture = m.uv_row[2 * kBaseColorSlot + 1].w > 0.5;
-    float texture_coverage = SAMPLE_SLOT(coverage_texture, kBaseColorSlot).r;
-#else
-    const bool mask_is_texture = false;
-    const float texture_coverage = 1.0;
 #endif
     bool masked = (m.flags & kMaterialMasked) != 0;
-    v.coverage = !masked ? 1.0 : mask_is_texture ? texture_coverage : base.a >= m.emission.a ? 1.0 : 0.0;
+#if COVERAGE_TEXTURE
+    v.coverage = SAMPLE_SLOT(coverage_texture, kBaseColorSlot).r;
+#else
+    v.coverage = !masked || base.a >= m.emission.a ? 1.0 : 0.0;
+#endif
     base = min(base, vec4(1.0));
     bool unlit = (m.flags & kMaterialUnlit) != 0;  // shines with its colour and reflects nothing
     vec3 f0 = mix(min(kDielectricF0 * m.specular.rgb, vec3(1.0)) * m.specular.a, base.rgb, metallic);

@@ -4,20 +4,18 @@
 #include "common/scene_structs.glsl"
 #include "common/brdf.glsl"
 #include "common/light.glsl"
+#include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 #include "04_conservative_voxelization/voxel_walk.glsl"
 #if SHADOWS == 1
 #include "common/shadow_map.glsl"
 #endif
 
-layout(local_size_x = 64) in;
-layout(std430, binding = kLightBinding) readonly buffer LightBuffer { LightData lights[]; };
 layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
 // rgb L, a visible share of all lights; 4 x 8 bit: lights 0..3.
 layout(std430, binding = kRadianceBinding) writeonly buffer RadianceBuffer { vec4 face_radiance[]; };
 layout(std430, binding = kVisibilityBinding) writeonly buffer VisibilityBuffer { uint face_visibility[]; };
-uniform int light_count;
 uniform float soft_sharpness;  // voxels
 
 // Cosine of the mean normal, or Villegas 2016, section 4.4: every axis weighs with the square of the normal's
@@ -62,7 +60,7 @@ float ray_visibility(vec3 position_grid, vec3 normal, vec3 direction, float dist
 
 void main()
 {
-    uint place = gl_GlobalInvocationID.x;
+    uint place = item_index();
     if (place >= voxel_statistics.faces) return;
     VoxelFace face = faces[place];
     vec3 normal = face.normal.xyz;

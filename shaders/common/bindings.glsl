@@ -26,9 +26,13 @@ CONEBOOK_CONSTANT int kVoxelListBinding = 7;
 
 // A pass puts its own buffers at 4 and 6, and at numbers of the above that it has no use for. Each binds what it reads
 // right before it runs.
-// 04, 05: voxelization has vertices instead of faces.
+// 04, 05: voxelization has triangles instead of faces.
+CONEBOOK_CONSTANT int kTriangleMaterialBinding = 1;
 CONEBOOK_CONSTANT int kVertexBinding = 2;
 CONEBOOK_CONSTANT int kIndexBinding = 3;
+CONEBOOK_CONSTANT int kFragmentRangeBinding = 4;
+CONEBOOK_CONSTANT int kFragmentBinding = 6;
+CONEBOOK_CONSTANT int kLargeTriangleBinding = 7;
 CONEBOOK_CONSTANT int kSumBinding = 4;
 CONEBOOK_CONSTANT int kBlockBinding = 6;
 // 03

@@ -78,7 +78,7 @@ TEST(Averaging, AnyNumberOfFragmentsInOneVoxel)
         pipeline.average();
         ASSERT_EQ(pipeline.voxel_faces().voxel_count(), 1u);
         ASSERT_EQ(pipeline.voxel_faces().face_count(), 1u);
-        EXPECT_EQ(pipeline.statistics().fragments, GLuint(count));
+        EXPECT_EQ(pipeline.fragment_count(), std::size_t(count));
         const shared::VoxelFace face = pipeline.faces()[0];
         const Mean exact = mean_of(scene);
         const double albedo_error = largest(glm::dvec3(glm::vec3(face.albedo_area)) - exact.albedo);
@@ -374,7 +374,7 @@ TEST(Averaging, RunningMeansOfEightBitsStick)
         // The running mean gives every fragment the same weight: its own oracle.
         double unweighted = 0.0;
         for (const auto& t : triangles) unweighted += double(brightness(t)) / 3.0 / count;
-        NaiveAverage naive(test_gl().shaders, pipeline.scene(), pipeline.grid(), Averaging::compare_and_swap);
+        NaiveAverage naive(test_gl().shaders, pipeline.grid(), Averaging::compare_and_swap);
         naive.run(pipeline.scene(), pipeline.grid(), pipeline.voxelizer());
         double error = 0.0;
         for (const GLuint texel : gl::read_uints(naive.color()))
