@@ -118,13 +118,13 @@ void ConservativeVoxelizer::mark(const GpuScene& scene, const VoxelGrid& grid)
 
 void ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
 {
-    if (ranges_.size() != scene.triangles_of_materials().size()) {
+    if (ranges_.size() != scene.material_uses().size()) {
         // A guess: small triangles meet few voxels, and where they are large there are not many.
         const std::size_t most = gl::most_storage_bytes() / sizeof(glm::uvec2);
         const std::size_t triangles_or_one = std::max<std::size_t>(scene.triangle_count(), 1);
         const std::size_t of_triangle = std::min<std::size_t>(4, most / triangles_or_one);
         std::vector<std::size_t> fragments;
-        for (const std::size_t triangles : scene.triangles_of_materials()) fragments.push_back(of_triangle * triangles);
+        for (const MaterialUse& use : scene.material_uses()) fragments.push_back(of_triangle * use.triangles);
         make_room(fragments);
         if (voxelizer_ == Voxelizer::compute)
             large_triangles_ = gl::Buffer("large triangles", scene.triangle_count() * sizeof(GLuint));

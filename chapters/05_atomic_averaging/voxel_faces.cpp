@@ -27,15 +27,22 @@ gl::Buffer dispatch_of(const std::string& label, std::size_t items)
 
 }  // namespace
 
-gl::Defines voxel_material_defines(const Material& m)
+namespace {
+
+gl::Defines voxel_material_defines(const Material& m, bool has_vertex_alpha)
 {
     const auto flag = [](bool on) { return on ? std::string("1") : std::string("0"); };
     return {{"BASE_COLOR_TEXTURE", flag(m.base_color_texture.present())},
             {"METALLIC_ROUGHNESS_TEXTURE", flag(m.metallic_roughness_texture.present())},
             {"EMISSION_TEXTURE", flag(m.emission_texture.present())},
+            {"SPECULAR_TEXTURE", flag(m.specular_texture.present())},
+            {"SPECULAR_COLOR_TEXTURE", flag(m.specular_color_texture.present())},
             {"COVERAGE_TEXTURE", flag(m.alpha_mode == AlphaMode::mask && m.base_color_texture.present())},
+            {"VERTEX_ALPHA", flag(m.alpha_mode == AlphaMode::mask && has_vertex_alpha)},
             {"EMISSION", flag(m.unlit || m.emission != glm::vec3(0.0f))}};
 }
+
+}  // namespace
 
 std::vector<Need> voxel_material_needs(const GpuScene& scene)
 {
@@ -45,9 +52,10 @@ std::vector<Need> voxel_material_needs(const GpuScene& scene)
             {"emission in voxels", emission, emission ? "materials shine" : "no material shines: no sums for it"}};
 }
 
-const gl::Program& FragmentPrograms::of(const Material& material)
+const gl::Program& FragmentPrograms::of(const GpuScene& scene, std::size_t material)
 {
-    gl::Defines defines = voxel_material_defines(material);
+    const bool vertex_alpha = scene.material_uses()[material].vertex_alpha;
+    gl::Defines defines = voxel_material_defines(scene.materials()[material], vertex_alpha);
     defines.insert(defines_.begin(), defines_.end());
     gl::Program& program = programs_[defines];
     if (program.id() == 0) program = shaders_->load({file_}, defines);
@@ -62,7 +70,7 @@ void FragmentPrograms::run(const GpuScene& scene, const VoxelGrid& grid, const C
     scene.for_each_material([&](std::size_t i) {
         const shared::FragmentRange& range = voxelizer.fragment_ranges()[i];
         if (range.count == 0) return;
-        const gl::Program& program = of(scene.materials()[i]);
+        const gl::Program& program = of(scene, i);
         program.use();
         program.set("first_fragment", range.begin);
         program.set("fragment_count", range.count);

@@ -20,7 +20,7 @@ public:
     void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
 
 private:
-    const gl::Program& of(const Material& material);
+    const gl::Program& of(const GpuScene& scene, std::size_t material);
     gl::Shaders* shaders_;
     std::string file_;
     gl::Defines defines_;

@@ -155,13 +155,16 @@ GpuScene::GpuScene(const Scene& scene)
         has_emission_ = has_emission_ || m.emission != glm::vec3(0.0f) || m.unlit;
     }
     material_buffer_ = gl::Buffer("materials", materials);
-    triangles_of_materials_.assign(materials.size(), 0);
+    material_uses_.resize(materials.size());
     std::vector<GLuint> triangle_materials(triangle_count_, 0u);
     for (const Draw& draw : scene.draws) {
         const bool double_sided = scene.materials[std::size_t(draw.material)].double_sided;
         const GLuint word = GLuint(draw.material) | (double_sided ? shared::kTriangleDoubleSided : 0u);
         std::fill_n(triangle_materials.begin() + draw.first_index / 3, draw.index_count / 3, word);
-        triangles_of_materials_[std::size_t(draw.material)] += draw.index_count / 3;
+        MaterialUse& use = material_uses_[std::size_t(draw.material)];
+        use.triangles += draw.index_count / 3;
+        for (std::uint32_t i = 0; i < draw.index_count && !use.vertex_alpha; ++i)
+            use.vertex_alpha = scene.vertices[scene.indices[draw.first_index + i]].color.a != 1.0f;
     }
     triangle_material_buffer_ = gl::Buffer("materials of triangles", triangle_materials);
     std::vector<shared::LightData> lights;

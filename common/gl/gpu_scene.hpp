@@ -15,6 +15,12 @@ namespace conebook {
 // Which faces a pass leaves out. `back_of_single_sided` is what a camera sees: double-sided materials show both.
 enum class Culling { none, back_of_single_sided };
 
+// What a scene's triangles make of a material.
+struct MaterialUse {
+    std::size_t triangles = 0;
+    bool vertex_alpha = false;  // some vertex has an alpha other than 1
+};
+
 class GpuScene {
 public:
     explicit GpuScene(const Scene& scene);
@@ -42,7 +48,7 @@ public:
     const std::vector<Light>& lights() const { return lights_; }
     std::size_t triangle_count() const { return triangle_count_; }
     const std::vector<Material>& materials() const { return materials_; }
-    const std::vector<std::size_t>& triangles_of_materials() const { return triangles_of_materials_; }
+    const std::vector<MaterialUse>& material_uses() const { return material_uses_; }  // of each of materials()
     bool has_emission() const { return has_emission_; }
     bool has_textures() const { return !textures_.empty(); }
     std::vector<gl::Resource> resources() const;
@@ -55,7 +61,7 @@ private:
     std::vector<Light> lights_;
     std::vector<Draw> draws_;
     std::vector<Material> materials_;
-    std::vector<std::size_t> triangles_of_materials_;
+    std::vector<MaterialUse> material_uses_;
     gl::Buffer vertex_buffer_, index_buffer_, triangle_material_buffer_, material_buffer_, light_buffer_;
     gl::VertexArray vertex_array_;
     struct BoundTexture {

@@ -1,6 +1,8 @@
 // One thread a fragment of one material: which triangle and which voxel, and what of the triangle is inside.
-// BASE_COLOR_TEXTURE, METALLIC_ROUGHNESS_TEXTURE, EMISSION_TEXTURE, COVERAGE_TEXTURE: 1 when the material has one.
-#define UV (BASE_COLOR_TEXTURE + METALLIC_ROUGHNESS_TEXTURE + EMISSION_TEXTURE)
+// BASE_COLOR_TEXTURE, METALLIC_ROUGHNESS_TEXTURE, EMISSION_TEXTURE, SPECULAR_TEXTURE, SPECULAR_COLOR_TEXTURE: 1 when
+// the material has one. COVERAGE_TEXTURE, VERTEX_ALPHA: 1 when that decides how much its alpha mask leaves.
+#define TEXTURES (BASE_COLOR_TEXTURE + METALLIC_ROUGHNESS_TEXTURE + EMISSION_TEXTURE + SPECULAR_TEXTURE + \
+                  SPECULAR_COLOR_TEXTURE)
 #include "04_conservative_voxelization/triangle_voxels.glsl"
 #include "04_conservative_voxelization/scene_triangles.glsl"
 #include "05_atomic_averaging/triangle_attributes.glsl"
@@ -26,6 +28,6 @@ Fragment fetch_fragment(uint item)
     f.voxel = unpack_voxel(pair.y);
     ivec3 voxel_t = axis_to_z(f.voxel, f.t.axis);
     f.part = part_in_voxel(f.t, voxel_t);
-    f.material = voxel_material(f.t, triangle_attributes(pair.x), vec3(voxel_t) + f.part.center, f.part.area);
+    f.material = voxel_material(f.t, triangle_attributes(pair.x), voxel_t, f.part);
     return f;
 }

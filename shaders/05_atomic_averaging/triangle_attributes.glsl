@@ -1,10 +1,10 @@
 // What a triangle's vertices have besides their positions.
 // Included after 04_conservative_voxelization/scene_triangles.glsl.
-// UV: 1 when the material has textures.
+// TEXTURES: not 0 when the material has textures.
 struct TriangleAttributes {
     vec3 normal0, normal1, normal2;
     vec4 color0, color1, color2;  // linear
-#if UV
+#if TEXTURES
     vec4 uv0, uv1, uv2;  // xy: UV set 0, zw: UV set 1
 #endif
 };
@@ -26,7 +26,7 @@ TriangleAttributes triangle_attributes(uint triangle)
     a.color0 = vertex_vec4(v.x, kColorWord);
     a.color1 = vertex_vec4(v.y, kColorWord);
     a.color2 = vertex_vec4(v.z, kColorWord);
-#if UV
+#if TEXTURES
     a.uv0 = vertex_vec4(v.x, kUvWord);
     a.uv1 = vertex_vec4(v.y, kUvWord);
     a.uv2 = vertex_vec4(v.z, kUvWord);
