@@ -34,7 +34,8 @@ try {
     int averaging = int(Averaging::sums);
     bool count_changes = false;
     ParameterTable parameters = parameters_of(grid_params, voxelizer_params, display_params);
-    parameters.add("averaging", averaging, {"sums", "compare_and_swap", "racing_store"},
+    parameters.add("averaging", averaging,
+                   {"sums", "compare_and_swap", "compare_and_swap_truncating", "racing_store"},
                    "how final and base_color are averaged; all later chapters use the sums");
     parameters.add("count_changes", count_changes, "with --frames: count what differs from the first frame (slow)");
 

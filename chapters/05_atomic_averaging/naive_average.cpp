@@ -7,7 +7,8 @@ namespace conebook {
 
 NaiveAverage::NaiveAverage(gl::Shaders& shaders, const VoxelGrid& grid, Averaging averaging)
     : programs_(shaders, "05_atomic_averaging/naive_average.comp",
-                {{"RACING_STORE", averaging == Averaging::racing_store ? "1" : "0"}}),
+                {{"RACING_STORE", averaging == Averaging::racing_store ? "1" : "0"},
+                 {"TRUNCATING", averaging == Averaging::compare_and_swap_truncating ? "1" : "0"}}),
       color_(gl::texture_3d("naive mean", GL_R32UI, grid.size()))
 {
 }
