@@ -1,19 +1,19 @@
 #version 450 core
 // Half of a bounce: every occupied face gathers the light of the pyramid as pixels do, E / pi = sum_i W_i L_i(k - 1).
+#include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 #include "common/diffuse_gather.glsl"
 #if EMITTED
 #include "common/emitters.glsl"
 #endif
 
-layout(local_size_x = 64) in;
 layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
 layout(std430, binding = kGatheredBinding) writeonly buffer GatheredBuffer { vec4 gathered[]; };
 
 void main()
 {
-    uint place = gl_GlobalInvocationID.x;
+    uint place = item_index();
     if (place >= voxel_statistics.faces) return;
     VoxelFace face = faces[place];
     // snippet: gather_face

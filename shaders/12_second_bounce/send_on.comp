@@ -1,11 +1,11 @@
 #version 450 core
 // The other half: faces of one wall share what they gathered, as pixels do, and send on the share rho of it.
 // L(k) = L(0) + rho E / pi
+#include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 #include "common/voxel_grid.glsl"
 #include "05_atomic_averaging/face_index.glsl"
 
-layout(local_size_x = 64) in;
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
@@ -42,7 +42,7 @@ vec3 shared_with_wall(uint place, vec3 normal)
 
 void main()
 {
-    uint place = gl_GlobalInvocationID.x;
+    uint place = item_index();
     if (place >= voxel_statistics.faces) return;
     // snippet: send_on
     vec3 albedo = min(faces[place].albedo_area.rgb, vec3(kMaxAlbedo));
