@@ -125,8 +125,10 @@ ShadowMaps::ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const Shadow
     framebuffer_ = gl::Framebuffer("shadow maps", {}, &depth_);
 }
 
-void ShadowMaps::draw(const GpuScene& scene)
+bool ShadowMaps::draw(const GpuScene& scene)
 {
+    if (!made_from_.differs(scene.geometry_revision(), scene.lights_revision())) return false;
+    ++revision_;
     // snippet: draw
     framebuffer_.bind(depth_.size_2d());
     glEnable(GL_DEPTH_TEST);
@@ -142,7 +144,7 @@ void ShadowMaps::draw(const GpuScene& scene)
     }
     glDisable(GL_DEPTH_TEST);
     // end snippet
-    drawn_ = true;
+    return true;
 }
 
 void ShadowMaps::bind(const gl::Program& program) const
@@ -163,8 +165,8 @@ std::vector<Need> ShadowMaps::needs(const GpuScene& scene) const
         const std::size_t maps = shadow_matrices(light, scene.bounds(), size()).size();
         const std::string of = " of light " + std::to_string(needs.size()), type = kTypes[int(light.type)];
         const std::string how_many = maps == 1 ? "one map" : std::to_string(maps) + " maps";
-        const std::string why = maps == 0 ? " without intensity" : drawn_ ? ": " + how_many : ": no pass asks its maps";
-        needs.push_back({"shadow map" + of, drawn_ && maps > 0, type + why});
+        const std::string why = maps == 0 ? " without intensity" : revision_ > 0 ? ": " + how_many : ": no pass asks its maps";
+        needs.push_back({"shadow map" + of, revision_ > 0 && maps > 0, type + why});
     }
     return needs;
 }

@@ -116,8 +116,10 @@ void ConservativeVoxelizer::mark(const GpuScene& scene, const VoxelGrid& grid)
     ranges_ = range_buffer_.read<shared::FragmentRange>();
 }
 
-void ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
+bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
 {
+    if (!made_from_.differs(scene.geometry_revision())) return false;
+    ++revision_;
     if (ranges_.size() != scene.material_uses().size()) {
         // A guess: small triangles meet few voxels, and where they are large there are not many.
         const std::size_t most = gl::most_storage_bytes() / sizeof(glm::uvec2);
@@ -151,6 +153,7 @@ void ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
     }
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_SHADER_STORAGE_BARRIER_BIT);
+    return true;
 }
 
 VoxelViewPass::VoxelViewPass(gl::Shaders& shaders)

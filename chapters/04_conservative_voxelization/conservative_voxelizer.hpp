@@ -24,9 +24,12 @@ class ConservativeVoxelizer {
 public:
     ConservativeVoxelizer(gl::Shaders& shaders, const VoxelGrid& grid, const VoxelizerParams& params);
 
-    // Fill occupancy() and its levels, and the list of fragments, from the scene's triangles. Reads counters back to
-    // the CPU to size the list; throws std::runtime_error when it would be longer than the driver's storage blocks.
-    void run(const GpuScene& scene, const VoxelGrid& grid);
+    // Fill occupancy() and its levels, and the list of fragments, from the scene's triangles if these have changed; says
+    // whether they have. Reads counters back to the CPU to size the list; throws std::runtime_error when it would be
+    // longer than the driver's storage blocks.
+    bool run(const GpuScene& scene, const VoxelGrid& grid);
+    void forget() { made_from_.forget(); }  // the next run fills them whatever has changed, for measuring
+    Revision revision() const { return revision_; }
 
     // r32ui, grid size: fragments in each voxel. Only with VoxelizerParams::count_fragments.
     const gl::Texture& fragment_counts() const { return fragment_counts_; }
@@ -46,6 +49,8 @@ public:
 private:
     void make_room(const std::vector<std::size_t>& fragments_of_materials);
     void mark(const GpuScene& scene, const VoxelGrid& grid);
+    MadeFrom<Revision> made_from_;
+    Revision revision_ = 0;
     Voxelizer voxelizer_;
     gl::Program mark_, mark_large_, next_level_;
     gl::Texture occupancy_, fragment_counts_;

@@ -25,10 +25,6 @@ gl::Buffer dispatch_of(const std::string& label, std::size_t items)
     return gl::Buffer(label, std::vector{gl::group_counts(items, 64)});
 }
 
-}  // namespace
-
-namespace {
-
 gl::Defines voxel_material_defines(const Material& m, bool has_vertex_alpha)
 {
     const auto flag = [](bool on) { return on ? std::string("1") : std::string("0"); };
@@ -130,8 +126,10 @@ void VoxelFaces::make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& 
                     GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
+bool VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
 {
+    if (!made_from_.differs(voxelizer.revision())) return false;
+    ++revision_;
     make_lists(grid, voxelizer);
 
     // Add up the fragments of every face.
@@ -148,6 +146,7 @@ void VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const Conserv
     resolve_.use();
     gl::dispatch_items(counted_.faces, 64);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    return true;
 }
 
 void VoxelFaces::bind() const
@@ -180,9 +179,13 @@ const gl::Texture& FaceViewPass::run(const VoxelGrid& grid, const gl::Texture& o
     faces.face_index().bind(shared::kFaceIndexUnit);
     if (quantity.packed != nullptr) quantity.packed->bind(shared::kPackedColorUnit);
     if (quantity.buffer != nullptr) quantity.buffer->bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceBinding);
+    if (quantity.plus != nullptr) quantity.plus->bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBinding);
     program_.set("stride", quantity.stride);
     program_.set("offset", quantity.offset);
     program_.set("show", quantity.show);
+    program_.set("has_plus", quantity.plus != nullptr);
+    program_.set("plus_stride", quantity.plus_stride);
+    program_.set("plus_offset", quantity.plus_offset);
     program_.set("has_packed", quantity.packed != nullptr);
     gl::draw_pixels(program_, framebuffer_, no_vertices_, size);
     return color_;

@@ -7,6 +7,7 @@
 #include "common/bindings.glsl"
 #include "common/scene_structs.glsl"
 #include "gl/handles.hpp"
+#include "gl/made_from.hpp"
 #include "gl/shaders.hpp"
 #include "scene/scene.hpp"
 
@@ -44,6 +45,12 @@ public:
     // Bind the light list (kLightBinding) and set uniform int light_count.
     void bind_lights(const gl::Program& program) const;
 
+    // Other lights than those of the file.
+    void set_lights(const std::vector<Light>& lights);
+    // What passes compare with what they were made from. Materials belong to the geometry.
+    Revision geometry_revision() const { return geometry_revision_; }
+    Revision lights_revision() const { return lights_revision_; }
+
     const Bounds& bounds() const { return bounds_; }
     const std::vector<Light>& lights() const { return lights_; }
     std::size_t triangle_count() const { return triangle_count_; }
@@ -56,6 +63,7 @@ public:
 private:
     void bind_material(std::size_t material) const;
     std::size_t triangle_count_ = 0;
+    Revision geometry_revision_ = 1, lights_revision_ = 1;
     Bounds bounds_;
     bool has_emission_ = false;
     std::vector<Light> lights_;
@@ -73,8 +81,11 @@ private:
     gl::Texture white_;
 };
 
-// Matrices of a camera for a picture of `size` pixels; reversed depth with an infinite far plane.
-shared::CameraData camera_data(const Camera& camera, glm::ivec2 size);
+// Matrices of a camera for a picture of `size` pixels. Depth is reversed and spread over what the camera can see of
+// `content`, the bounds of all that is drawn.
+shared::CameraData camera_data(const Camera& camera, glm::ivec2 size, const Bounds& content);
+// The same camera with its picture moved by a part of a pixel.
+shared::CameraData moved(const shared::CameraData& camera, glm::vec2 pixels);
 // LightData as the shaders read it.
 shared::LightData light_data(const Light& light);
 

@@ -1,5 +1,5 @@
 #version 450 core
-// Direct light of every occupied face: L = Le + (rho / pi) E, one thread a face.
+// Direct light that every occupied face reflects: L = (rho / pi) E, one thread a face. What it emits is kept apart.
 // SHADOWS 0: none, 1: shadow maps, 2: hard rays through the volume, 3: soft rays. DIRECTIONAL_LAMBERT 0 or 1.
 #include "common/scene_structs.glsl"
 #include "common/brdf.glsl"
@@ -90,7 +90,7 @@ void main()
         if (i < 4) visibility[i] = visible;
     }
     // snippet: radiance
-    vec3 radiance = face.emission.rgb + face.albedo_area.rgb / kPi * irradiance;
+    vec3 radiance = face.albedo_area.rgb / kPi * irradiance;
     face_radiance[place] = vec4(radiance, total > 0.0 ? unshadowed / total : 1.0);
     face_visibility[place] = packUnorm4x8(visibility);
     // end snippet

@@ -1,7 +1,7 @@
 #version 450 core
 // What chapter 06 found visible, from the list of faces to a volume that pixels can sample, the six directions side by
 // side as in the pyramids. One thread an occupied face.
-#include "common/pyramid.glsl"
+#include "07_anisotropic_mips/pyramid.glsl"
 #include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 

@@ -45,11 +45,18 @@ CONEBOOK_CONSTANT int kClaimedBinding = 3;
 CONEBOOK_CONSTANT int kOccupiedBinding = 4;
 CONEBOOK_CONSTANT int kLightScaleBinding = 4;
 CONEBOOK_CONSTANT int kLevelBinding = 6;
+// 08
+CONEBOOK_CONSTANT int kWalkCellBinding = 4;
+CONEBOOK_CONSTANT int kWalkBitBinding = 6;
 // 11
+CONEBOOK_CONSTANT int kEmitterTriangleBinding = 3;
 CONEBOOK_CONSTANT int kEmitterBinding = 6;
 // 12
-CONEBOOK_CONSTANT int kGatheredBinding = 4;
+CONEBOOK_CONSTANT int kRadianceBeforeBinding = 0;
+CONEBOOK_CONSTANT int kFromEmittersBinding = 1;
+CONEBOOK_CONSTANT int kRadianceAfterBinding = 2;
+CONEBOOK_CONSTANT int kLinkBinding = 4;
 CONEBOOK_CONSTANT int kChangeBinding = 6;
-CONEBOOK_CONSTANT int kBouncedBinding = 7;
+CONEBOOK_CONSTANT int kAlbedoBinding = 7;
 
 CONEBOOK_SHARED_END
