@@ -121,12 +121,18 @@ bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
     if (!made_from_.differs(scene.geometry_revision())) return false;
     ++revision_;
     if (ranges_.size() != scene.material_uses().size()) {
-        // A guess: small triangles meet few voxels, and where they are large there are not many.
-        const std::size_t most = gl::most_storage_bytes() / sizeof(glm::uvec2);
-        const std::size_t triangles_or_one = std::max<std::size_t>(scene.triangle_count(), 1);
-        const std::size_t of_triangle = std::min<std::size_t>(4, most / triangles_or_one);
+        // In the mean over all places a triangle meets 1 + its box's sides + its areas along the axes in voxels: the
+        // volume of its Minkowski sum with a voxel. Places that are not random, as of walls between two layers of
+        // voxels, may find more; a quarter is left for them.
+        const double side_m = double(grid.voxel_size_m());
+        const auto mean = [&](const MaterialUse& use) {
+            return double(use.triangles) + use.box_sides_m / side_m + use.seen_areas_m2 / (side_m * side_m);
+        };
+        double sum = 0.0;
+        for (const MaterialUse& use : scene.material_uses()) sum += mean(use);
+        const double share = std::min(1.25, double(gl::most_storage_bytes() / sizeof(glm::uvec2)) / std::max(sum, 1.0));
         std::vector<std::size_t> fragments;
-        for (const MaterialUse& use : scene.material_uses()) fragments.push_back(of_triangle * use.triangles);
+        for (const MaterialUse& use : scene.material_uses()) fragments.push_back(std::size_t(share * mean(use)));
         make_room(fragments);
         if (voxelizer_ == Voxelizer::compute)
             large_triangles_ = gl::Buffer("large triangles", scene.triangle_count() * sizeof(GLuint));
@@ -137,7 +143,7 @@ bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
     const auto found_more = [](const shared::FragmentRange& range) { return range.count > range.capacity; };
     if (std::any_of(ranges_.begin(), ranges_.end(), found_more)) {
         std::vector<std::size_t> fragments;
-        for (const shared::FragmentRange& range : ranges_) fragments.push_back(range.count + range.count / 8);
+        for (const shared::FragmentRange& range : ranges_) fragments.push_back(range.count);
         make_room(fragments);
         mark(scene, grid);
     }
@@ -151,8 +157,7 @@ bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
         const glm::ivec3 groups = (glm::max(grid.size() >> level, glm::ivec3(1)) + 3) / 4;
         glDispatchCompute(GLuint(groups.x), GLuint(groups.y), GLuint(groups.z));
     }
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                    GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     return true;
 }
 

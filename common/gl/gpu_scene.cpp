@@ -174,6 +174,14 @@ GpuScene::GpuScene(const Scene& scene)
         std::fill_n(triangle_materials.begin() + draw.first_index / 3, draw.index_count / 3, word);
         MaterialUse& use = material_uses_[std::size_t(draw.material)];
         use.triangles += draw.index_count / 3;
+        for (std::uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3) {
+            const auto corner = [&](std::uint32_t k) { return scene.vertices[scene.indices[i + k]].position; };
+            const glm::vec3 a = corner(0), b = corner(1), c = corner(2);
+            const glm::vec3 sides = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+            const glm::vec3 areas = 0.5f * glm::abs(glm::cross(b - a, c - a));
+            use.box_sides_m += double(sides.x + sides.y + sides.z);
+            use.seen_areas_m2 += double(areas.x + areas.y + areas.z);
+        }
         for (std::uint32_t i = 0; i < draw.index_count && !use.vertex_alpha; ++i)
             use.vertex_alpha = scene.vertices[scene.indices[draw.first_index + i]].color.a != 1.0f;
     }

@@ -20,6 +20,8 @@ enum class Culling { none, back_of_single_sided };
 struct MaterialUse {
     std::size_t triangles = 0;
     bool vertex_alpha = false;  // some vertex has an alpha other than 1
+    // Sums over triangles: sides of their boxes along x, y and z, m; areas seen along x, y and z, m^2.
+    double box_sides_m = 0.0, seen_areas_m2 = 0.0;
 };
 
 class GpuScene {

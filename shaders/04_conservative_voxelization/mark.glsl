@@ -19,7 +19,8 @@ void mark(GridTriangle t, uint triangle, ivec3 voxel_t)
     uint material = triangle_words[triangle];
     uint bits = 1u << front_face(t);
     if ((material & kTriangleDoubleSided) != 0u) bits |= 1u << (front_face(t) ^ 1);
-    imageAtomicOr(occupancy, voxel, bits);
+    // Most voxels meet several triangles of a face; an old value read here costs an atomic and nothing else.
+    if ((imageLoad(occupancy, voxel).r & bits) != bits) imageAtomicOr(occupancy, voxel, bits);
     // Each material has its own part of the list, since only one material's textures are bound at a time. Beyond its
     // end fragments are counted and not kept: then the list is made longer, and the pass runs again.
     material &= ~kTriangleDoubleSided;

@@ -67,18 +67,13 @@ TEST(Voxelization, TriangleSoups)
     }
 }
 
-TEST(Voxelization, EveryTriangleByItself)
+// The list of fragments has every pair of a triangle and a voxel that overlap, each once.
+void expect_exact_pairs(const Soup& soup, const Bounds& bounds, int voxels)
 {
-    // In a soup a voxel that one triangle misses may be marked by another; fragments are counted one by one.
-    std::mt19937 random(4);
-    Soup soup = random_triangles(random, 10000, unit_bounds(128), 0.01f, 100.0f);
-    std::erase_if(soup, [](const auto& t) {
-        return oracle::area_of({glm::dvec3(t[0]), glm::dvec3(t[1]), glm::dvec3(t[2])}) == 0.0;
-    });
     const Scene scene = triangle_soup(soup);
     using Pair = std::pair<std::size_t, std::array<int, 3>>;
     std::set<Pair> exact, grown;
-    const shared::GridData grid = make_grid(scene.bounds, {128});
+    const shared::GridData grid = make_grid(bounds, {voxels});
     const glm::ivec3 size(grid.size);
     const auto triangles = oracle::triangles_of(scene, grid);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -86,7 +81,7 @@ TEST(Voxelization, EveryTriangleByItself)
         oracle::for_each_voxel(triangles[i], size, 1e-4, [&](glm::ivec3 v) { grown.insert({i, {v.x, v.y, v.z}}); });
     }
     for (const Voxelizer voxelizer : {Voxelizer::raster, Voxelizer::compute}) {
-        SoupPipeline pipeline(scene, 128, voxelizer);
+        SoupPipeline pipeline(scene, bounds, voxels, voxelizer);
         pipeline.voxelize();
         const auto list = pipeline.voxelizer().fragments().read<glm::uvec2>();
         std::set<Pair> found;
@@ -100,6 +95,32 @@ TEST(Voxelization, EveryTriangleByItself)
         EXPECT_TRUE(std::includes(found.begin(), found.end(), exact.begin(), exact.end()));
         EXPECT_TRUE(std::includes(grown.begin(), grown.end(), found.begin(), found.end()));
     }
+}
+
+TEST(Voxelization, EveryTriangleByItself)
+{
+    // In a soup a voxel that one triangle misses may be marked by another; fragments are counted one by one.
+    std::mt19937 random(4);
+    Soup soup = random_triangles(random, 10000, unit_bounds(128), 0.01f, 100.0f);
+    std::erase_if(soup, [](const auto& t) {
+        return oracle::area_of({glm::dvec3(t[0]), glm::dvec3(t[1]), glm::dvec3(t[2])}) == 0.0;
+    });
+    expect_exact_pairs(soup, triangle_soup(soup).bounds, 128);
+}
+
+// Small triangles round the corners of voxels meet six to eight each, and not the one or two that are usual: more than
+// the list has room for at first.
+TEST(Voxelization, MoreFragmentsThanExpected)
+{
+    std::mt19937 random(5);
+    std::uniform_int_distribution<int> corner(2, 14);
+    const float s = 0.05f;
+    Soup soup;
+    for (int i = 0; i < 3000; ++i) {
+        const glm::vec3 p(corner(random), corner(random), corner(random));
+        soup.push_back({p + s * glm::vec3(2, -1, -1), p + s * glm::vec3(-1, 2, -1), p + s * glm::vec3(-1, -1, 2)});
+    }
+    expect_exact_pairs(soup, unit_bounds(16), 16);
 }
 
 TEST(Voxelization, RasterAndComputeAgree)
