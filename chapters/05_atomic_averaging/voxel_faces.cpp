@@ -172,7 +172,7 @@ FaceViewPass::FaceViewPass(gl::Shaders& shaders)
 const gl::Texture& FaceViewPass::run(const VoxelGrid& grid, const gl::Texture& occupancy, const VoxelFaces& faces,
                                      const FaceQuantity& quantity, const gl::Buffer& camera, glm::ivec2 size)
 {
-    gl::fit_to_pixels(color_, framebuffer_, "face view", GL_RGBA16F, size);
+    gl::fit_to_pixels(color_, framebuffer_, "face view", GL_RGBA32F, size);
     grid.bind();
     camera.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     occupancy.bind(shared::kOccupancyUnit);

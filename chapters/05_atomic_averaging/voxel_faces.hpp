@@ -85,7 +85,7 @@ struct FaceQuantity {
 class FaceViewPass {
 public:
     explicit FaceViewPass(gl::Shaders& shaders);
-    // RGBA16F, alpha 0 where no voxel is met.
+    // RGBA32F, alpha 0 where no voxel is met.
     const gl::Texture& run(const VoxelGrid& grid, const gl::Texture& occupancy, const VoxelFaces& faces,
                            const FaceQuantity& quantity, const gl::Buffer& camera, glm::ivec2 size);
 

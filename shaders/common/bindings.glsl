@@ -13,6 +13,7 @@ CONEBOOK_CONSTANT int kGridBlock = 1;
 CONEBOOK_CONSTANT int kConeBlock = 2;
 CONEBOOK_CONSTANT int kMaterialBlock = 3;
 CONEBOOK_CONSTANT int kPyramidBlock = 4;
+CONEBOOK_CONSTANT int kEmissionPyramidBlock = 5;
 
 // Storage buffers. OpenGL 4.5 promises a pass eight of them, numbered 0 to 7, in fragment and compute shaders, and none
 // in vertex and geometry shaders (chapter 23, MAX_SHADER_STORAGE_BUFFER_BINDINGS, MAX_*_SHADER_STORAGE_BLOCKS).
