@@ -10,8 +10,9 @@ namespace conebook {
 // eight.
 enum class Directions : int { per_face = 0, anisotropic = 1, isotropic = 2 };
 
-// rgba16f: 8 bytes a texel; radiance beyond half floats is kept in units of a power of two. rgba8: 4, radiance as a share of the largest that any face sends, so that nothing is cut
-// off and what is darker than 1/510 of it is lost. r11g11b10f: 5, 6 or 5 bits of precision for radiance, 8 for coverage.
+// rgba16f: 8 bytes a texel; radiance beyond half floats is kept in units of a power of two. rgba8: 4, radiance as a share
+// of the largest that any face sends, so that nothing is cut off and what is darker than 1/510 of it is lost.
+// r11g11b10f: 5, 6 or 5 bits of precision for radiance, 8 for coverage.
 enum class LightFormat : int { rgba16f = 0, rgba8 = 1, r11g11b10f = 2 };
 
 // What of the light that leaves the faces a pyramid holds; their coverage it always does.
