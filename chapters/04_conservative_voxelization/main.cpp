@@ -1,7 +1,7 @@
 // 04_conservative_voxelization: triangles become voxels, and none of them slips through the grid.
 //
-// A voxel is occupied when it overlaps a triangle. The rasterizer, looking along the triangle's dominant axis, finds the
-// columns of the grid that the triangle may touch; an exact test decides for the one to three voxels of each column:
+// A voxel is occupied when it overlaps a triangle. Looking along the triangle's dominant axis, the rasterizer or a thread
+// finds the columns of the grid that the triangle may touch; an exact test decides for the one to three voxels of each:
 //
 //     overlap  <=>  no axis a of the 13 separates:  max_i a.p_i < -r(a)  or  min_i a.p_i > r(a),  r(a) = |a|_1 / 2
 //
@@ -60,13 +60,14 @@ try {
         most = std::max(most, double(fragments));
     }
     const glm::ivec3 size = grid.size();
+    const double fragments = double(voxelizer.fragment_count());
     app.statistics().set_counts({{"grid x", double(size.x), "voxels"},
                                  {"grid y", double(size.y), "voxels"},
                                  {"grid z", double(size.z), "voxels"},
                                  {"voxel size", grid.voxel_size_m(), "m"},
                                  {"occupied voxels", occupied, ""},
-                                 {"fragments", double(counted.fragments), ""},
-                                 {"fragments per occupied voxel", counted.fragments / std::max(occupied, 1.0), ""},
+                                 {"fragments", fragments, ""},
+                                 {"fragments per occupied voxel", fragments / std::max(occupied, 1.0), ""},
                                  {"most fragments in a voxel", most, ""},
                                  {"triangles without area", double(counted.degenerate), ""}});
     for (const auto& part : {scene.resources(), voxelizer.resources()})

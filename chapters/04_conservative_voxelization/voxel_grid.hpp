@@ -22,7 +22,9 @@ shared::GridData make_grid(const Bounds& bounds, const VoxelGridParams& params);
 // The grid as passes bind it: kGridBlock (shaders/common/voxel_grid.glsl).
 class VoxelGrid {
 public:
-    VoxelGrid(const Bounds& bounds, const VoxelGridParams& params);
+    // `volumes_along_x`: how many volumes of the grid's size passes put side by side along x in one texture. Throws
+    // std::runtime_error, which names the parameter and the limit, where the driver has no 3D textures of that size.
+    VoxelGrid(const Bounds& bounds, const VoxelGridParams& params, int volumes_along_x = 1);
     const shared::GridData& data() const { return data_; }
     glm::ivec3 size() const { return glm::ivec3(data_.size); }
     int levels() const { return data_.size.w; }

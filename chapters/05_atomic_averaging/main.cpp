@@ -34,7 +34,8 @@ try {
     int averaging = int(Averaging::sums);
     bool count_changes = false;
     ParameterTable parameters = parameters_of(grid_params, voxelizer_params, display_params);
-    parameters.add("averaging", averaging, {"sums", "compare_and_swap", "racing_store"},
+    parameters.add("averaging", averaging,
+                   {"sums", "compare_and_swap", "compare_and_swap_truncating", "racing_store"},
                    "how final and base_color are averaged; all later chapters use the sums");
     parameters.add("count_changes", count_changes, "with --frames: count what differs from the first frame (slow)");
 
@@ -54,7 +55,7 @@ try {
     ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
     VoxelFaces faces(app.shaders(), grid, voxelizer);
     std::vector<NaiveAverage> naive;
-    if (averaging != int(Averaging::sums)) naive.emplace_back(app.shaders(), scene, grid, Averaging(averaging));
+    if (averaging != int(Averaging::sums)) naive.emplace_back(app.shaders(), grid, Averaging(averaging));
     FaceViewPass face_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
     ChangeCounter changes;
@@ -88,7 +89,7 @@ try {
     const shared::VoxelStatistics counted = faces.counted();
     std::vector<Count> counts = {{"occupied voxels", double(counted.voxels), ""},
                                  {"occupied faces", double(counted.faces), ""},
-                                 {"fragments", double(counted.fragments), ""},
+                                 {"fragments", double(voxelizer.fragment_count()), ""},
                                  {"triangles without area", double(counted.degenerate), ""}};
     if (!naive.empty()) counts.push_back({"RMS error of the naive mean", rms_error(naive.front(), faces), ""});
     if (count_changes) counts.push_back({"values that changed between frames", changes.most_changed(), ""});

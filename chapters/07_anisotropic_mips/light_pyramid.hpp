@@ -10,8 +10,9 @@ namespace conebook {
 // eight.
 enum class Directions : int { per_face = 0, anisotropic = 1, isotropic = 2 };
 
-// rgba16f: 8 bytes a texel. rgba8: 4, radiance as a share of the largest that any face sends, so that nothing is cut
-// off and what is darker than 1/510 of it is lost. r11g11b10f: 5, 6 or 5 bits of precision for radiance, 8 for coverage.
+// rgba16f: 8 bytes a texel; radiance beyond half floats is kept in units of a power of two. rgba8: 4, radiance as a share
+// of the largest that any face sends, so that nothing is cut off and what is darker than 1/510 of it is lost.
+// r11g11b10f: 5, 6 or 5 bits of precision for radiance, 8 for coverage.
 enum class LightFormat : int { rgba16f = 0, rgba8 = 1, r11g11b10f = 2 };
 
 // What of the light that leaves the faces a pyramid holds; their coverage it always does.
@@ -53,8 +54,8 @@ public:
 
     // kLightAtlasUnit, kCoverageAtlasUnit and uniform block 4, for shaders that include 07_anisotropic_mips/pyramid.glsl.
     void bind() const;
-    // kEmissionAtlasUnit, beside another one that is bound as above; format rgba16f.
-    void bind_as_emission() const { light_.bind(GLuint(shared::kEmissionAtlasUnit)); }
+    // kEmissionAtlasUnit and uniform block 5, beside another one that is bound as above; format rgba16f.
+    void bind_as_emission() const;
     LightFormat format() const { return format_; }
     // For programs that include 07_anisotropic_mips/pyramid.glsl.
     gl::Defines defines() const;
@@ -76,7 +77,7 @@ private:
     MadeFrom<Revision, GLuint, Revision, LightPart> made_from_;
     Revision revision_ = 0;
     LightFormat format_;
-    gl::Program largest_radiance_, base_, next_level_;
+    gl::Program unit_, base_, next_level_;
     OccupiedLevels occupied_;
     gl::Texture light_, coverage_;
     gl::Buffer scale_;
@@ -90,7 +91,7 @@ void add_parameters(ParameterTable& table, PyramidViewParams& params);
 class PyramidViewPass {
 public:
     explicit PyramidViewPass(gl::Shaders& shaders);
-    // RGBA16F, alpha 0 where no voxel is met. `show_coverage`: A as grey instead of radiance. `emission` is added.
+    // RGBA32F, alpha 0 where no voxel is met. `show_coverage`: A as grey instead of radiance. `emission` is added.
     const gl::Texture& run(const VoxelGrid& grid, const gl::Texture& occupancy, const LightPyramid& pyramid, int level,
                            const PyramidViewParams& params, bool show_coverage, const gl::Buffer& camera,
                            glm::ivec2 size, const LightPyramid* emission = nullptr);

@@ -13,7 +13,7 @@ void add_parameters(ParameterTable& table, LitVoxelParams& params)
 
 LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params)
     : params_(params),
-      grid_(scene.bounds(), params.grid),
+      grid_(scene.bounds(), params.grid, shared::kFaceCount),
       voxelizer_(shaders, grid_, params.voxelizer),
       faces_(shaders, grid_, voxelizer_),
       shading_(shaders),
@@ -65,7 +65,7 @@ std::vector<Count> LitVoxels::counts() const
             {"voxel size", grid_.voxel_size_m(), "m"},
             {"occupied voxels", double(counted.voxels), ""},
             {"occupied faces", double(counted.faces), ""},
-            {"fragments", double(counted.fragments), ""},
+            {"fragments", double(voxelizer_.fragment_count()), ""},
             {"triangles without area", double(counted.degenerate), ""}};
 }
 

@@ -42,8 +42,8 @@ void SpecularCones::bind(const gl::Program& program, const ConeParams& cones, co
 const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
                                       const SpecularConeParams& params, int sample)
 {
-    gl::fit_to_pixels(lobe_light_, lobe_framebuffer_, "light in the lobe", GL_RGBA16F, g_buffer.size());
-    gl::fit_to_pixels(specular_, specular_framebuffer_, "specular light", GL_RGBA16F, g_buffer.size());
+    gl::fit_to_pixels(lobe_light_, lobe_framebuffer_, "light in the lobe", GL_RGBA32F, g_buffer.size());
+    gl::fit_to_pixels(specular_, specular_framebuffer_, "specular light", GL_RGBA32F, g_buffer.size());
     // The mean of the light in every pixel's lobe, or in its part of a wide one.
     g_buffer.bind();
     volumes.bind();

@@ -23,7 +23,7 @@ public:
     // `folder` below shaders/ holds specular.frag; later chapters have their own.
     explicit SpecularCones(gl::Shaders& shaders, const std::string& folder = "09_specular_cones");
 
-    // RGBA16F of the g-buffer's size: radiance towards the camera. `sample` as in ConeDirections.
+    // RGBA32F of the g-buffer's size: radiance towards the camera. `sample` as in ConeDirections.
     const gl::Texture& run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
                            const SpecularConeParams& params, int sample = 0);
     std::vector<gl::Resource> resources() const

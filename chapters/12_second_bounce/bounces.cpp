@@ -93,7 +93,7 @@ bool Bounces::run(const LitVoxels& voxels, const ConeParams& cones, const Bounce
         packed_[0].bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBeforeBinding);
         (is_last ? reflected_ : packed_[1]).bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceAfterBinding);
         if (measure) change_.clear();
-        glDispatchCompute(gl::group_count(faces.face_count(), 256), 1, 1);
+        gl::dispatch_items(faces.face_count(), 64);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         std::swap(packed_[0], packed_[1]);
         if (settled) break;

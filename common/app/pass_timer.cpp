@@ -7,6 +7,9 @@ namespace conebook {
 void PassTimer::time(const std::string& pass, Scope scope, const std::function<bool()>& work, Statistics& statistics)
 {
     const gl::DebugGroup group(pass);
+    // What a pass stores must not overtake what the ones before still read of it, be it the last frame's picture: stores
+    // wait for all accesses before these barriers (OpenGL 4.5, 7.12.2). What they wrote, each pass makes visible itself.
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     if (clock_ == Clock::cpu_around_finish) {
         glFinish();
         const auto start = std::chrono::steady_clock::now();

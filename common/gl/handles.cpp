@@ -86,14 +86,21 @@ Buffer::Buffer(const std::string& label, std::size_t bytes, const void* data) : 
     if (data == nullptr) clear();
 }
 
+// What shaders write is not ordered against commands that write the same memory, so that these wait for it first
+// (OpenGL 4.5, 7.12.2: BUFFER_UPDATE and TEXTURE_UPDATE barriers, for reading and for writing). The other way round
+// shaders see what earlier commands wrote without a barrier.
 void Buffer::write(std::size_t offset, std::size_t bytes, const void* data) const
 {
-    if (bytes > 0) glNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), data);
+    if (bytes == 0) return;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), data);
 }
 
 void Buffer::clear() const
 {
-    if (*this) glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    if (!*this) return;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
 void Buffer::bind(GLenum target, GLuint index) const { glBindBufferBase(target, index, id()); }
@@ -103,6 +110,22 @@ void Buffer::read_bytes(std::size_t offset, std::size_t bytes, void* out) const
     if (bytes == 0) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), out);
+}
+
+std::size_t most_storage_bytes()
+{
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    return std::size_t(most);
+}
+
+void require_storage(const std::string& items, std::size_t count, std::size_t bytes_per_item, const std::string& remedy)
+{
+    const std::size_t most = most_storage_bytes();
+    if (count * bytes_per_item <= most) return;
+    throw std::runtime_error(std::to_string(count) + " " + items + " of " + std::to_string(bytes_per_item) +
+                             " bytes are more than a storage block of this driver holds (" +
+                             std::to_string(most >> 20) + " MiB, GL_MAX_SHADER_STORAGE_BLOCK_SIZE); use " + remedy);
 }
 
 Texture::Texture(const std::string& label, GLenum target, GLenum internal_format, glm::ivec3 size, int levels)
@@ -148,6 +171,7 @@ void Texture::set_wrap(GLenum wrap) const
 
 void Texture::clear() const
 {
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     const FormatInfo info = format_info(format_);
     for (int level = 0; level < levels_; ++level) glClearTexImage(id(), level, info.format, info.type, nullptr);
 }
@@ -255,6 +279,19 @@ VertexArray::VertexArray()
     GLuint id = 0;
     glCreateVertexArrays(1, &id);
     handle_ = Handle<delete_vertex_array>(id);
+}
+
+glm::uvec3 group_counts(std::size_t items, GLuint group)
+{
+    constexpr GLuint kMostInRow = 65535;
+    const GLuint groups = group_count(items, group), rows = std::max(group_count(groups, kMostInRow), 1u);
+    return {group_count(groups, rows), rows, 1};
+}
+
+void dispatch_items(std::size_t items, GLuint group)
+{
+    const glm::uvec3 groups = group_counts(items, group);
+    if (items > 0) glDispatchCompute(groups.x, groups.y, groups.z);
 }
 
 void draw_fullscreen_triangle(const VertexArray& empty)

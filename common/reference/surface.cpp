@@ -116,7 +116,7 @@ bool covers(const Scene& scene, const Material& material, const TrianglePoint& p
 
 glm::vec3 emitted_radiance(const Scene& scene, const Material& material, const TrianglePoint& point)
 {
-    if (material.unlit) return glm::vec3(base_color_at(scene, material, point));
+    if (material.unlit) return glm::clamp(glm::vec3(base_color_at(scene, material, point)), 0.0f, 1.0f);
     if (material.emission == glm::vec3(0.0f)) return glm::vec3(0.0f);
     return material.emission * glm::vec3(sample_slot(scene, material.emission_texture, point, true));
 }

@@ -1,6 +1,10 @@
-// Punctual lights (KHR_lights_punctual): what one of them sends to a point.
+// Punctual lights (KHR_lights_punctual): the scene's list of them, and what one of them sends to a point.
+#include "common/bindings.glsl"
 #include "common/scene_structs.glsl"
 #include "common/material_constants.glsl"
+
+layout(std430, binding = kLightBinding) readonly buffer LightBuffer { LightData lights[]; };
+uniform int light_count;
 
 struct LightSample {
     vec3 direction;   // unit, from the point to the light; zero at the very place of the light

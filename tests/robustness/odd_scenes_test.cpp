@@ -58,6 +58,24 @@ TEST(OddScenes, NothingToSeeIsABlackPictureInEveryChapter)
     }
 }
 
+// Six pyramids of 400 voxels beside each other are wider than the 3D textures of some drivers.
+TEST(OddScenes, GridsBeyondTheDriverAreRefusedByName)
+{
+    const TemporaryFolder folder;
+    const std::filesystem::path scene = write_file(folder / "odd.glb", one_triangle().glb());
+    const std::filesystem::path picture = folder / "x.exr";
+    for (const std::string program : {"07_anisotropic_mips", "12_second_bounce", "14_speed_against_error"}) {
+        const ProgramRun done = run_program(program, "--headless --size 32x32 --set voxels=400 --scene '" +
+                                                         scene.string() + "' --output '" + picture.string() + "'");
+        EXPECT_EQ(std::filesystem::exists(picture), done.code == 0) << program << ": " << done.output;
+        std::filesystem::remove(picture);
+        if (done.code == 0) continue;
+        EXPECT_EQ(std::count(done.output.begin(), done.output.end(), '\n'), 1) << program << ": " << done.output;
+        EXPECT_EQ(done.output.find("voxels=400: "), 0u) << program << ": " << done.output;
+        EXPECT_NE(done.output.find("GL_MAX_3D_TEXTURE_SIZE"), std::string::npos) << program << ": " << done.output;
+    }
+}
+
 // OpenGL takes labels of 256 bytes at least, and no longer ones than it says.
 TEST(OddScenes, NamesMayBeLong)
 {
