@@ -1,7 +1,9 @@
 // load_scene: glTF file -> Scene. Two walks over the instances: the first finds the bounding box in double precision,
 // the second writes vertices relative to its middle.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <new>
@@ -12,12 +14,9 @@ namespace conebook {
 namespace gltf {
 namespace {
 
-// A position beyond this would overflow squared lengths in float (1e18^2 = 1e36).
-constexpr double largest_extent = 1e18;
-
 struct PlacedMesh {
     const LocalMesh* mesh = nullptr;
-    Instance instance;
+    std::size_t node = 0;  // index into Scene::nodes
     std::string name;
 };
 
@@ -50,14 +49,14 @@ private:
 };
 
 // Refuse a scene that is too large by what its accessors claim, before anything is read.
-void check_size(const Document& document, const std::vector<Instance>& nodes)
+void check_size(const Document& document, const std::vector<Node>& nodes)
 {
     const auto element_count = [&](int accessor) {
         return static_cast<std::uint64_t>(document.model.accessors.at(static_cast<std::size_t>(accessor)).count);
     };
     std::uint64_t triangles = 0, vertices = 0;
-    for (const Instance& instance : nodes) {
-        const int mesh = document.model.nodes[static_cast<std::size_t>(instance.node)].mesh;
+    for (const Node& node : nodes) {
+        const int mesh = document.model.nodes[static_cast<std::size_t>(node.file_index)].mesh;
         if (mesh < 0) continue;
         for (const auto& primitive : document.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
             const auto position = primitive.attributes.find("POSITION");
@@ -74,18 +73,37 @@ void check_size(const Document& document, const std::vector<Instance>& nodes)
     }
 }
 
-std::vector<PlacedMesh> place_meshes(const Document& document, const std::vector<Instance>& nodes, MeshLibrary& library,
-                                     Warnings& warnings)
+// What keeps the picture from being the one that was meant.
+void note_what_is_not_posed(const Scene& scene, Warnings& warnings)
+{
+    for (const Node& node : scene.nodes) {
+        if (node.draws.count == 0) continue;
+        const std::string where =
+            "nodes[" + std::to_string(node.file_index) + "] '" + scene.draws[node.draws.first].name + "'";
+        if (node.skin >= 0) {
+            warn(warnings, where +
+                               " has a skin, which is not applied: its mesh stands unposed at its node's place, "
+                               "where its bones may have moved, turned or scaled it");
+        }
+        if (std::any_of(node.weights.begin(), node.weights.end(), [](double weight) { return weight != 0.0; })) {
+            warn(warnings, where + " has morph weights, which are not applied: its mesh has the shape without them");
+        }
+    }
+    if (!scene.animations.empty()) {
+        warn(warnings, "the file has animations, which are not played: everything stands as its nodes place it");
+    }
+}
+
+std::vector<PlacedMesh> place_meshes(const Document& document, const std::vector<Node>& nodes, MeshLibrary& library)
 {
     std::vector<PlacedMesh> placed;
-    for (const Instance& instance : nodes) {
-        const auto& node = document.model.nodes[static_cast<std::size_t>(instance.node)];
-        if (node.mesh < 0) continue;
-        if (node.skin >= 0) warn(warnings, "skins are ignored: meshes are shown as modelled, at their node");
-        const auto& mesh = document.model.meshes[static_cast<std::size_t>(node.mesh)];
-        for (const LocalMesh& local : library.get(node.mesh)) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const int index = document.model.nodes[static_cast<std::size_t>(nodes[i].file_index)].mesh;
+        if (index < 0) continue;
+        const auto& mesh = document.model.meshes[static_cast<std::size_t>(index)];
+        for (const LocalMesh& local : library.get(index)) {
             if (local.indices.empty()) continue;
-            placed.push_back({&local, instance, node.name.empty() ? mesh.name : node.name});
+            placed.push_back({&local, i, nodes[i].name.empty() ? mesh.name : nodes[i].name});
         }
     }
     if (placed.empty()) fail("the scene has no triangles");
@@ -96,28 +114,33 @@ struct BoxWs {
     glm::dvec3 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
 };
 
-BoxWs bounding_box_ws(const std::vector<PlacedMesh>& placed)
+BoxWs bounding_box_ws(const std::vector<PlacedMesh>& placed, const std::vector<Node>& nodes)
 {
     BoxWs box;
     for (const PlacedMesh& place : placed) {
+        const Node& node = nodes[place.node];
         for (const Vertex& vertex : place.mesh->vertices) {
-            const glm::dvec3 position(place.instance.world_from_node * glm::dvec4(vertex.position, 1.0));
+            const glm::dvec3 position(node.world_from_node * glm::dvec4(vertex.position, 1.0));
             if (!std::isfinite(position.x + position.y + position.z)) {
-                fail("nodes[" + std::to_string(place.instance.node) + "] moves a vertex to infinity");
+                fail("nodes[" + std::to_string(node.file_index) + "] moves a vertex to infinity");
             }
             box.min = glm::min(box.min, position);
             box.max = glm::max(box.max, position);
         }
     }
     const glm::dvec3 extent = box.max - box.min;
-    if (!(std::max({extent.x, extent.y, extent.z}) < largest_extent)) fail("the scene is larger than 1e18 m");
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    if (!(longest <= max_extent)) fail("the scene is larger than 1e9 m");
+    // Nothing but points in one place is no small scene: it is empty, and a black picture.
+    if (longest > 0.0 && longest < min_extent) fail("the scene is smaller than 1e-6 m");
     return box;
 }
 
 // Append one placed mesh: positions by the matrix, normals by its inverse transpose, tangents by the matrix.
 void append(Scene& scene, const PlacedMesh& place)
 {
-    const glm::dmat4& world_from_node = place.instance.world_from_node;
+    Node& node = scene.nodes[place.node];
+    const glm::dmat4& world_from_node = node.world_from_node;
     const glm::dmat3 linear(world_from_node);
     // The matrix of cofactors is det * inverse transpose, and exists for flattened nodes (scale 0) too.
     const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
@@ -150,8 +173,22 @@ void append(Scene& scene, const PlacedMesh& place)
     }
 
     const auto first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
+    const auto first_index = static_cast<std::uint32_t>(scene.indices.size());
+    if (node.draws.count == 0) {
+        node.vertices.first = first_vertex;
+        node.indices.first = first_index;
+        node.draws.first = static_cast<std::uint32_t>(scene.draws.size());
+        node.bounds = {vertices[0].position, vertices[0].position};
+    }
+    ++node.draws.count;
+    node.vertices.count += static_cast<std::uint32_t>(vertices.size());
+    node.indices.count += static_cast<std::uint32_t>(indices.size());
+    for (const Vertex& vertex : vertices) {
+        node.bounds.min = glm::min(node.bounds.min, vertex.position);
+        node.bounds.max = glm::max(node.bounds.max, vertex.position);
+    }
     Draw draw;
-    draw.first_index = static_cast<std::uint32_t>(scene.indices.size());
+    draw.first_index = first_index;
     draw.index_count = static_cast<std::uint32_t>(indices.size());
     draw.material = place.mesh->material;
     draw.name = place.name;
@@ -185,28 +222,41 @@ void settle_blending(Scene& scene, const Materials& materials)
     }
 }
 
-bool emits(const Material& material, const std::vector<Image>& images)
+// The largest texel of an emission texture, linear: some exporters write a factor of 1 with a black texture.
+glm::vec3 largest_texel(const Image& image)
 {
-    if (material.emission == glm::vec3(0.0f)) return false;
-    if (!material.emission_texture.present()) return true;
-    // Some exporters write a factor of 1 with a black texture.
-    const auto& rgba = images[static_cast<std::size_t>(material.emission_texture.image)].rgba;
-    for (std::size_t i = 0; i < rgba.size(); i += 4) {
-        for (int c = 0; c < 3; ++c) {
-            if (rgba[i + static_cast<std::size_t>(c)] > 0 && material.emission[c] > 0.0f) return true;
-        }
+    std::array<std::uint8_t, 3> largest{};
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        for (std::size_t c = 0; c < 3; ++c) largest[c] = std::max(largest[c], image.rgba[i + c]);
     }
-    return false;
+    return {linear_from_srgb(largest[0] / 255.0), linear_from_srgb(largest[1] / 255.0),
+            linear_from_srgb(largest[2] / 255.0)};
 }
 
-bool has_emitter(const Scene& scene)
+// Whether a drawn surface shines. Notes those whose radiance the chapters cannot keep.
+bool find_emitters(Scene& scene)
 {
+    constexpr float largest_half = 65504.0f;
     std::vector<std::uint8_t> used(scene.materials.size(), 0);
     for (const Draw& draw : scene.draws) used[static_cast<std::size_t>(draw.material)] = 1;
+    bool found = false;
     for (std::size_t m = 0; m < used.size(); ++m) {
-        if (used[m] && emits(scene.materials[m], scene.images)) return true;
+        const Material& material = scene.materials[m];
+        glm::vec3 radiance = material.emission;
+        if (!used[m] || radiance == glm::vec3(0.0f)) continue;
+        if (material.emission_texture.present()) {
+            radiance *= largest_texel(scene.images[static_cast<std::size_t>(material.emission_texture.image)]);
+        }
+        const float largest = std::max({radiance.r, radiance.g, radiance.b});
+        found = found || largest > 0.0f;
+        if (largest <= largest_half) continue;
+        std::array<char, 32> number;
+        std::snprintf(number.data(), number.size(), "%.3g", static_cast<double>(largest));
+        warn(scene.warnings, "materials[" + std::to_string(m) + "] '" + material.name + "' emits a radiance of " +
+                                 number.data() +
+                                 " W/(sr m^2); the chapters keep light in half floats, which end at 65504");
     }
-    return false;
+    return found;
 }
 
 Scene read_scene(const std::filesystem::path& file)
@@ -214,13 +264,16 @@ Scene read_scene(const std::filesystem::path& file)
     Scene scene;
     scene.name = file.stem().string();
     const Document document = read_document(file, scene.warnings);
-    const std::vector<Instance> nodes = walk_nodes(document);
+    scene.nodes = read_nodes(document);
+    scene.animations = read_animations(document, scene.nodes, scene.warnings);
+    scene.skins = read_skins(document, scene.nodes, scene.warnings);
+    if (!document.model.scenes.empty()) scene.extras = document.model.scenes[shown_scene(document)].extras_json_string;
     const Materials materials = read_materials(document, scene.warnings);
-    check_size(document, nodes);
+    check_size(document, scene.nodes);
     MeshLibrary library(document, materials, scene.warnings);
-    const std::vector<PlacedMesh> placed = place_meshes(document, nodes, library, scene.warnings);
+    const std::vector<PlacedMesh> placed = place_meshes(document, scene.nodes, library);
 
-    const BoxWs box = bounding_box_ws(placed);
+    const BoxWs box = bounding_box_ws(placed, scene.nodes);
     scene.origin_ws = 0.5 * (box.min + box.max);
     scene.bounds = {glm::vec3(box.min - scene.origin_ws), glm::vec3(box.max - scene.origin_ws)};
     std::size_t vertices = 0, indices = 0;
@@ -231,13 +284,15 @@ Scene read_scene(const std::filesystem::path& file)
     scene.vertices.reserve(vertices);
     scene.indices.reserve(indices);
     for (const PlacedMesh& place : placed) append(scene, place);
+    note_what_is_not_posed(scene, scene.warnings);
 
     scene.materials = materials.materials;
     scene.images = read_images(document, materials.images, scene.warnings);
     settle_blending(scene, materials);
-    scene.cameras = read_cameras(document, nodes, scene.origin_ws, scene.warnings);
-    scene.lights = read_lights(document, nodes, scene.origin_ws, scene.warnings);
-    if (scene.lights.empty() && !has_emitter(scene)) {
+    scene.cameras = read_cameras(document, scene.nodes, scene.origin_ws, scene.warnings);
+    scene.lights = read_lights(document, scene.nodes, scene.origin_ws, scene.warnings);
+    const bool has_emitter = find_emitters(scene);
+    if (scene.lights.empty() && !has_emitter) {
         scene.has_default_light = true;
         scene.lights.push_back(default_light(scene));
     }

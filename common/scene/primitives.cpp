@@ -149,8 +149,6 @@ LocalMesh PrimitiveReader::read(int material_index, const Materials& materials)
     const auto positions = attribute("POSITION", 3, 3);
     if (!positions) fail(where_ + " has no POSITION");
     vertex_count_ = positions->count();
-    if (!primitive_.targets.empty()) warn(warnings_, where_ + ": its morph targets are ignored (weight 0)");
-
     mesh.indices =
         to_triangle_list(read_indices(document_, primitive_, vertex_count_, where_), primitive_.mode, where_);
     if (mesh.indices.empty()) return mesh;
