@@ -17,6 +17,8 @@ struct Bounds {
     glm::vec3 extent() const { return max - min; }
     glm::vec3 center() const { return 0.5f * (min + max); }
     float longest_side() const { auto e = extent(); return glm::max(e.x, glm::max(e.y, e.z)); }
+    // 0 .. 7: bit 0, 1, 2 choose max over min in x, y, z.
+    glm::vec3 corner(int i) const { return {i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z}; }
 };
 
 // Elements [first, first + count) of an array.

@@ -144,4 +144,12 @@ Scene load_scene(const std::filesystem::path& file);
 // none, one that frames the bounds. Throws std::runtime_error when the file has no Nth camera.
 Camera choose_camera(const Scene& scene, std::optional<int> index);
 
+// Distances along the camera's axis, m: near > 0 for a perspective, far > near.
+struct DepthRange {
+    double near, far;
+};
+// What lies in `bounds` and between the camera's near and far planes lies between these two, which are as close together
+// as that allows: depth and rays that begin there do not lose their digits to the empty way to a scene far away.
+DepthRange visible_depths(const Camera& camera, const Bounds& bounds);
+
 }  // namespace conebook
