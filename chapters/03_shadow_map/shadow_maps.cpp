@@ -133,8 +133,6 @@ bool ShadowMaps::draw(const GpuScene& scene)
     framebuffer_.bind(depth_.size_2d());
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
     for (int layer = 0; layer < layers(); ++layer) {
         framebuffer_.attach_depth_layer(depth_, layer);
         const float farthest = 0.0f;

@@ -28,8 +28,6 @@ void for_each_column(const gl::Program& program, Voxelizer voxelizer, const GpuS
     }
     const glm::ivec3 size = grid.size();
     column_plane.bind(glm::ivec2(std::max({size.x, size.y, size.z})));
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_BLEND);
     scene.draw(program, Culling::none);
 }
 

@@ -230,7 +230,7 @@ void GpuScene::bind_lights(const gl::Program& program) const
     program.set("light_count", int(lights_.size()));
 }
 
-void GpuScene::bind_material(const gl::Program& program, int material) const
+void GpuScene::bind_material(int material) const
 {
     glBindBufferRange(GL_UNIFORM_BUFFER, shared::kMaterialBlock, material_buffer_.id(),
                       GLintptr(material) * GLintptr(kMaterialStride), sizeof(shared::MaterialData));
@@ -260,7 +260,7 @@ void GpuScene::draw(const gl::Program& program, Culling culling) const
     for (const Draw& draw : draws_) {
         if (draw.material != bound_material) {
             bound_material = draw.material;
-            bind_material(program, draw.material);
+            bind_material(draw.material);
             const bool cull = culling == Culling::back_of_single_sided &&
                               !materials_[std::size_t(draw.material)].double_sided;
             (cull ? glEnable : glDisable)(GL_CULL_FACE);
@@ -279,7 +279,7 @@ void GpuScene::dispatch_triangles(const gl::Program& program) const
     program.use();
     bind_buffers();
     for (const Draw& draw : draws_) {
-        bind_material(program, draw.material);
+        bind_material(draw.material);
         const GLuint triangles = draw.index_count / 3;
         for (GLuint first = 0; first < triangles; first += kMaxGroups) {
             const GLuint count = std::min(kMaxGroups, triangles - first);

@@ -46,7 +46,7 @@ public:
 
 private:
     void bind_buffers() const;
-    void bind_material(const gl::Program& program, int material) const;
+    void bind_material(int material) const;
     std::size_t triangle_count_ = 0;
     Revision geometry_revision_ = 1, lights_revision_ = 1;
     Bounds bounds_;

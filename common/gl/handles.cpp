@@ -111,7 +111,7 @@ Texture::Texture(const std::string& label, GLenum target, GLenum internal_format
     GLuint id = 0;
     glCreateTextures(target, 1, &id);
     handle_ = Handle<delete_texture>(id);
-    if (target == GL_TEXTURE_2D || target == GL_TEXTURE_CUBE_MAP)
+    if (target == GL_TEXTURE_2D)
         glTextureStorage2D(id, levels, internal_format, size.x, size.y);
     else
         glTextureStorage3D(id, levels, internal_format, size.x, size.y, size.z);
@@ -131,7 +131,7 @@ std::size_t Texture::bytes() const
         const bool is_3d = target_ == GL_TEXTURE_3D;
         texels += std::size_t(s.x) * std::size_t(s.y) * std::size_t(is_3d ? s.z : std::max(size_.z, 1));
     }
-    return texels * format_info(format_).bytes_per_texel * (target_ == GL_TEXTURE_CUBE_MAP ? 6 : 1);
+    return texels * format_info(format_).bytes_per_texel;
 }
 
 void Texture::set_filter(GLenum minification, GLenum magnification) const
@@ -255,12 +255,6 @@ VertexArray::VertexArray()
     GLuint id = 0;
     glCreateVertexArrays(1, &id);
     handle_ = Handle<delete_vertex_array>(id);
-}
-
-void draw_fullscreen_triangle(const VertexArray& empty)
-{
-    glBindVertexArray(empty.id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 }  // namespace conebook::gl

@@ -101,7 +101,7 @@ private:
     std::string label_;
 };
 
-// Immutable storage. size.z is the depth (3D) or the number of layers (arrays; faces for cube map arrays).
+// Immutable storage. size.z is the depth (3D) or the number of layers (arrays).
 class Texture {
 public:
     Texture() = default;
@@ -164,9 +164,6 @@ public:
 private:
     Handle<delete_vertex_array> handle_;
 };
-
-// A triangle that covers the viewport: three vertices from gl_VertexID, no buffers.
-void draw_fullscreen_triangle(const VertexArray& empty);
 
 // Number of work groups of `group` that cover `items`.
 inline GLuint group_count(std::size_t items, GLuint group) { return GLuint((items + group - 1) / group); }

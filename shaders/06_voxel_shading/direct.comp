@@ -12,7 +12,6 @@
 
 layout(local_size_x = 64) in;
 layout(std430, binding = kLightBinding) readonly buffer LightBuffer { LightData lights[]; };
-layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
 // rgb L, a visible share of all lights; 4 x 8 bit: lights 0..3.
 layout(std430, binding = kRadianceBinding) writeonly buffer RadianceBuffer { vec4 face_radiance[]; };

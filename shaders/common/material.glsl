@@ -35,15 +35,3 @@ void set_fresnel(inout SurfaceMaterial s, vec3 specular_color)
     s.f90 = mix(s.specular, 1.0, s.metallic);
     s.albedo = s.base_color * (1.0 - s.metallic);
 }
-
-// SAMPLE(texture, uv) is texture() in fragment shaders and textureLod() where there are no derivatives.
-#define EVALUATE_MATERIAL(SAMPLE, s, specular_color, m, uv0, uv1, vertex_color)                                   \
-    vec4 base = m.base_color * vertex_color * SAMPLE(base_color_texture, texture_uv(m, kBaseColorSlot, uv0, uv1)); \
-    vec4 mr = SAMPLE(metallic_roughness_texture, texture_uv(m, kMetallicRoughnessSlot, uv0, uv1));                \
-    s.base_color = min(base.rgb, vec3(1.0));                                                                      \
-    s.alpha = base.a;                                                                                             \
-    s.metallic = m.metallic * mr.b;                                                                               \
-    s.roughness = max(m.roughness * mr.g, kMinRoughness);                                                         \
-    s.emission = m.emission.rgb * SAMPLE(emission_texture, texture_uv(m, kEmissionSlot, uv0, uv1)).rgb;           \
-    s.specular = m.specular.a * SAMPLE(specular_texture, texture_uv(m, kSpecularSlot, uv0, uv1)).a;               \
-    specular_color = m.specular.rgb * SAMPLE(specular_color_texture, texture_uv(m, kSpecularColorSlot, uv0, uv1)).rgb;

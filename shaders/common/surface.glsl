@@ -42,6 +42,22 @@ vec3 facet_normal(vec3 view, vec3 shading_normal)
     return dot(n, view) < 0.0 ? -n : n;
 }
 
+SurfaceMaterial evaluate_material(MaterialData m)
+{
+    vec2 uv0 = vertex_uv0, uv1 = vertex_uv1;
+    vec4 base = m.base_color * vertex_color * texture(base_color_texture, texture_uv(m, kBaseColorSlot, uv0, uv1));
+    vec4 mr = texture(metallic_roughness_texture, texture_uv(m, kMetallicRoughnessSlot, uv0, uv1));
+    SurfaceMaterial s;
+    s.base_color = min(base.rgb, vec3(1.0));
+    s.alpha = base.a;
+    s.metallic = m.metallic * mr.b;
+    s.roughness = max(m.roughness * mr.g, kMinRoughness);
+    s.emission = m.emission.rgb * texture(emission_texture, texture_uv(m, kEmissionSlot, uv0, uv1)).rgb;
+    s.specular = m.specular.a * texture(specular_texture, texture_uv(m, kSpecularSlot, uv0, uv1)).a;
+    set_fresnel(s, m.specular.rgb * texture(specular_color_texture, texture_uv(m, kSpecularColorSlot, uv0, uv1)).rgb);
+    return s;
+}
+
 // Discards where an alpha mask is cut out.
 Surface read_surface()
 {
@@ -51,9 +67,7 @@ Surface read_surface()
     s.view = view_direction(vertex_position);
     s.normal = mapped_normal(m);
     s.geometric_normal = facet_normal(s.view, s.normal);
-    vec3 specular_color;
-    EVALUATE_MATERIAL(texture, s.material, specular_color, m, vertex_uv0, vertex_uv1, vertex_color)
-    set_fresnel(s.material, specular_color);
+    s.material = evaluate_material(m);
     if ((m.flags & kMaterialUnlit) != 0) {  // shines with its colour and reflects nothing
         s.material.emission = s.material.base_color;
         s.material.base_color = s.material.albedo = s.material.f0 = vec3(0.0);
