@@ -244,10 +244,12 @@ void Framebuffer::attach_depth_layer(const Texture& depth, int layer) const
     glNamedFramebufferTextureLayer(id(), GL_DEPTH_ATTACHMENT, depth.id(), 0, layer);
 }
 
-void Framebuffer::bind(glm::ivec2 viewport_size) const
+void Framebuffer::bind(glm::ivec2 viewport_size) const { bind(glm::ivec2(0), viewport_size); }
+
+void Framebuffer::bind(glm::ivec2 viewport_corner, glm::ivec2 viewport_size) const
 {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
-    glViewport(0, 0, viewport_size.x, viewport_size.y);
+    glViewport(viewport_corner.x, viewport_corner.y, viewport_size.x, viewport_size.y);
 }
 
 VertexArray::VertexArray()

@@ -150,6 +150,7 @@ public:
     GLuint id() const { return handle_.id(); }
     void attach_depth_layer(const Texture& depth, int layer) const;
     void bind(glm::ivec2 viewport_size) const;  // binds for drawing and sets the viewport to the whole of it
+    void bind(glm::ivec2 viewport_corner, glm::ivec2 viewport_size) const;
 
 private:
     void check(const std::string& label) const;

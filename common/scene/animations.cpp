@@ -1,6 +1,8 @@
-// Animations and skins: read and checked, not played.
+// Animations and skins: read and checked. pose.cpp plays them.
 #include <algorithm>
 #include <cmath>
+
+#include <nlohmann/json.hpp>
 
 #include "scene/parts.hpp"
 
@@ -65,8 +67,7 @@ std::size_t width_of(AnimationPath path, const Node& node)
 
 std::string quoted(const std::string& name) { return name.empty() ? "" : " '" + name + "'"; }
 
-}  // namespace
-
+// Node in Scene::nodes by its index in the file, -1: not in the scene.
 std::vector<int> nodes_by_file_index(const Document& document, const std::vector<Node>& nodes)
 {
     std::vector<int> result(document.model.nodes.size(), -1);
@@ -75,6 +76,15 @@ std::vector<int> nodes_by_file_index(const Document& document, const std::vector
     }
     return result;
 }
+
+bool says_dynamic(const std::string& extras)
+{
+    const auto json = nlohmann::json::parse(extras, nullptr, false);
+    const auto found = json.is_object() ? json.find("dynamic") : json.end();
+    return json.is_object() && found != json.end() && found->is_boolean() && found->get<bool>();
+}
+
+}  // namespace
 
 std::vector<Animation> read_animations(const Document& document, const std::vector<Node>& nodes, Warnings& warnings)
 {
@@ -165,6 +175,29 @@ std::vector<Skin> read_skins(const Document& document, std::vector<Node>& nodes,
         if (skin >= 0) node.skin = kept[static_cast<std::size_t>(skin)];
     }
     return skins;
+}
+
+void mark_dynamic(Scene& scene)
+{
+    std::vector<std::uint8_t> moves(scene.nodes.size(), 0), morphs(scene.nodes.size(), 0);
+    for (const Animation& animation : scene.animations) {
+        for (const AnimationChannel& channel : animation.channels) {
+            const bool weights = channel.path == AnimationPath::weights;
+            (weights ? morphs : moves)[static_cast<std::size_t>(channel.node)] = 1;
+        }
+    }
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        const Node& node = scene.nodes[i];
+        if (says_dynamic(node.extras) || (node.parent >= 0 && moves[static_cast<std::size_t>(node.parent)])) moves[i] = 1;
+    }
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        Node& node = scene.nodes[i];
+        node.dynamic = moves[i] || morphs[i];
+        if (node.skin < 0) continue;
+        for (const int joint : scene.skins[static_cast<std::size_t>(node.skin)].joints) {
+            node.dynamic = node.dynamic || moves[static_cast<std::size_t>(joint)];
+        }
+    }
 }
 
 }  // namespace conebook::gltf

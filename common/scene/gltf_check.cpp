@@ -235,9 +235,11 @@ void check_mesh(const Object& mesh)
             }
         });
         primitive.object("extensions", [](const Object&) {});
-        if (primitive.has("targets") && !primitive.value["targets"].is_array()) {
-            fail(primitive.name("targets") + " is not an array");
-        }
+        primitive.objects("targets", [](const Object& target) {
+            for (auto& [name, accessor] : target.value.items()) {
+                target.check_reference(accessor, target.path + "." + name, "accessors");
+            }
+        });
     });
 }
 

@@ -54,7 +54,7 @@ void check_size(const Document& document, const std::vector<Node>& nodes)
     const auto element_count = [&](int accessor) {
         return static_cast<std::uint64_t>(document.model.accessors.at(static_cast<std::size_t>(accessor)).count);
     };
-    std::uint64_t triangles = 0, vertices = 0;
+    std::uint64_t triangles = 0, vertices = 0, deltas = 0;
     for (const Node& node : nodes) {
         const int mesh = document.model.nodes[static_cast<std::size_t>(node.file_index)].mesh;
         if (mesh < 0) continue;
@@ -66,6 +66,8 @@ void check_size(const Document& document, const std::vector<Node>& nodes)
             triangles += primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners;
             // Flat normals give every corner its own vertex.
             vertices += primitive.attributes.contains("NORMAL") ? std::min(corners, positions) : corners;
+            deltas += primitive.targets.size() * corners;
+            if (deltas > max_morph_deltas) fail("the scene has more than 16 million vertices of morph targets");
             if (triangles > max_triangles || vertices > max_vertices) {
                 fail("the scene has more than 100 million triangles or 50 million vertices after instancing");
             }
@@ -73,24 +75,21 @@ void check_size(const Document& document, const std::vector<Node>& nodes)
     }
 }
 
-// What keeps the picture from being the one that was meant.
-void note_what_is_not_posed(const Scene& scene, Warnings& warnings)
+// Skins whose joints the vertices of their meshes do not know are left out.
+void check_skins(Scene& scene, const std::vector<PlacedMesh>& placed, Warnings& warnings)
 {
-    for (const Node& node : scene.nodes) {
-        if (node.draws.count == 0) continue;
-        const std::string where =
-            "nodes[" + std::to_string(node.file_index) + "] '" + scene.draws[node.draws.first].name + "'";
-        if (node.skin >= 0) {
-            warn(warnings, where +
-                               " has a skin, which is not applied: its mesh stands unposed at its node's place, "
-                               "where its bones may have moved, turned or scaled it");
+    for (const PlacedMesh& place : placed) {
+        Node& node = scene.nodes[place.node];
+        if (node.skin < 0) continue;
+        const std::size_t count = scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
+        bool sound = !place.mesh->joints.empty();
+        for (const glm::uvec4 joints : place.mesh->joints) {
+            sound = sound && std::max({joints.x, joints.y, joints.z, joints.w}) < count;
         }
-        if (std::any_of(node.weights.begin(), node.weights.end(), [](double weight) { return weight != 0.0; })) {
-            warn(warnings, where + " has morph weights, which are not applied: its mesh has the shape without them");
-        }
-    }
-    if (!scene.animations.empty()) {
-        warn(warnings, "the file has animations, which are not played: everything stands as its nodes place it");
+        if (sound) continue;
+        warn(warnings, "nodes[" + std::to_string(node.file_index) + "] '" + place.name +
+                           "' has a skin without a mesh of vertices that name its joints; it is not applied");
+        node.skin = -1;
     }
 }
 
@@ -114,15 +113,46 @@ struct BoxWs {
     glm::dvec3 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
 };
 
-BoxWs bounding_box_ws(const std::vector<PlacedMesh>& placed, const std::vector<Node>& nodes)
+// A placed mesh and what puts its vertices into the world.
+class Placing {
+public:
+    Placing(const Scene& scene, const std::vector<NodePose>& rest, const PlacedMesh& place)
+        : mesh_(*place.mesh), node_(scene.nodes[place.node]), matrices_(world_from_mesh(scene, rest, place.node))
+    {
+    }
+    glm::dmat4 matrix(std::size_t v) const
+    {
+        return node_.skin < 0 ? matrices_[0] : blended(matrices_, mesh_.joints[v], mesh_.joint_weights[v]);
+    }
+    // As modelled, with the morph targets that the rest pose has.
+    Vertex vertex(std::size_t v) const
+    {
+        Vertex vertex = mesh_.vertices[v];
+        for (std::size_t t = 0; t < node_.weights.size(); ++t) {
+            const auto weight = static_cast<float>(node_.weights[t]);
+            const MorphDelta& delta = mesh_.targets[t][v];
+            vertex.position += weight * delta.position;
+            vertex.normal += weight * delta.normal;
+            vertex.tangent += glm::vec4(weight * delta.tangent, 0.0f);
+        }
+        return vertex;
+    }
+
+private:
+    const LocalMesh& mesh_;
+    const Node& node_;
+    std::vector<glm::dmat4> matrices_;
+};
+
+BoxWs bounding_box_ws(const Scene& scene, const std::vector<NodePose>& rest, const std::vector<PlacedMesh>& placed)
 {
     BoxWs box;
     for (const PlacedMesh& place : placed) {
-        const Node& node = nodes[place.node];
-        for (const Vertex& vertex : place.mesh->vertices) {
-            const glm::dvec3 position(node.world_from_node * glm::dvec4(vertex.position, 1.0));
+        const Placing placing(scene, rest, place);
+        for (std::size_t v = 0; v < place.mesh->vertices.size(); ++v) {
+            const glm::dvec3 position(placing.matrix(v) * glm::dvec4(placing.vertex(v).position, 1.0));
             if (!std::isfinite(position.x + position.y + position.z)) {
-                fail("nodes[" + std::to_string(node.file_index) + "] moves a vertex to infinity");
+                fail("nodes[" + std::to_string(scene.nodes[place.node].file_index) + "] moves a vertex to infinity");
             }
             box.min = glm::min(box.min, position);
             box.max = glm::max(box.max, position);
@@ -136,41 +166,39 @@ BoxWs bounding_box_ws(const std::vector<PlacedMesh>& placed, const std::vector<N
     return box;
 }
 
-// Append one placed mesh: positions by the matrix, normals by its inverse transpose, tangents by the matrix.
-void append(Scene& scene, const PlacedMesh& place)
+// Keep the vertices of a mesh as modelled, for those who pose them.
+void keep_modelled(Scene& scene, const LocalMesh& mesh)
+{
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const Vertex& vertex = mesh.vertices[v];
+        ModelledVertex modelled{vertex.position, vertex.normal, vertex.tangent};
+        if (!mesh.joints.empty()) {
+            modelled.joints = mesh.joints[v];
+            modelled.weights = mesh.joint_weights[v];
+        }
+        scene.modelled.push_back(modelled);
+    }
+}
+
+// Append one placed mesh in the rest pose.
+void append(Scene& scene, const std::vector<NodePose>& rest, const PlacedMesh& place)
 {
     Node& node = scene.nodes[place.node];
-    const glm::dmat4& world_from_node = node.world_from_node;
-    const glm::dmat3 linear(world_from_node);
-    // The matrix of cofactors is det * inverse transpose, and exists for flattened nodes (scale 0) too.
-    const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                               glm::cross(linear[0], linear[1]));
-    const double determinant = glm::dot(linear[0], cofactors[0]);
-    const bool mirrored = determinant < 0.0;
-    const double sign = mirrored ? -1.0 : 1.0;
-
-    std::vector<Vertex> vertices = place.mesh->vertices;
+    const Placing placing(scene, rest, place);
+    std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices = place.mesh->indices;
-    if (mirrored) {
+    for (std::size_t v = 0; v < place.mesh->vertices.size(); ++v) {
+        vertices.push_back(placed(placing.vertex(v), placing.matrix(v), scene.origin_ws));
+    }
+    node.mirrored = is_mirroring(placing.matrix(0));
+    if (node.mirrored) {
         for (std::size_t i = 0; i < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
     }
-    const auto unit = [](glm::dvec3 v) {
-        const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-        return largest > 0.0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0.0);
-    };
-    for (Vertex& vertex : vertices) {
-        const glm::dvec3 position_ws(world_from_node * glm::dvec4(vertex.position, 1.0));
-        vertex.position = glm::vec3(position_ws - scene.origin_ws);
-        vertex.normal = glm::vec3(unit(cofactors * glm::dvec3(vertex.normal)) * sign);
+    if (place.mesh->flat_normals && (node.skin >= 0 || !node.weights.empty())) {
+        for (Vertex& vertex : vertices) vertex.normal = glm::vec3(0.0f);  // the faces' own, now that these have moved
     }
     repair_normals(vertices, indices);  // a node scaled to nothing leaves normals without a direction
-    for (Vertex& vertex : vertices) {
-        const glm::dvec3 normal = vertex.normal;
-        const glm::dvec3 tangent = linear * glm::dvec3(vertex.tangent);
-        const glm::dvec3 flat = unit(unit(tangent) - normal * glm::dot(normal, unit(tangent)));
-        vertex.tangent = glm::vec4(flat == glm::dvec3(0.0) ? perpendicular(vertex.normal) : glm::vec3(flat),
-                                   vertex.tangent.w * (mirrored ? -1.0f : 1.0f));
-    }
+    for (Vertex& vertex : vertices) finish_tangent(vertex);
 
     const auto first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
     const auto first_index = static_cast<std::uint32_t>(scene.indices.size());
@@ -179,6 +207,11 @@ void append(Scene& scene, const PlacedMesh& place)
         node.indices.first = first_index;
         node.draws.first = static_cast<std::uint32_t>(scene.draws.size());
         node.bounds = {vertices[0].position, vertices[0].position};
+        node.modelled.first = static_cast<std::uint32_t>(scene.modelled.size());
+    }
+    if (node.dynamic || node.skin >= 0 || !node.weights.empty()) {
+        keep_modelled(scene, *place.mesh);
+        node.modelled.count += static_cast<std::uint32_t>(vertices.size());
     }
     ++node.draws.count;
     node.vertices.count += static_cast<std::uint32_t>(vertices.size());
@@ -192,9 +225,27 @@ void append(Scene& scene, const PlacedMesh& place)
     draw.index_count = static_cast<std::uint32_t>(indices.size());
     draw.material = place.mesh->material;
     draw.name = place.name;
+    draw.vertices = {first_vertex, static_cast<std::uint32_t>(vertices.size())};
+    draw.flat_normals = place.mesh->flat_normals;
     scene.vertices.insert(scene.vertices.end(), vertices.begin(), vertices.end());
     for (const std::uint32_t index : indices) scene.indices.push_back(first_vertex + index);
     scene.draws.push_back(std::move(draw));
+}
+
+// Deltas of all morph targets of a node stand target by target, and its meshes one after the other within each.
+void keep_deltas(Scene& scene, const std::vector<PlacedMesh>& placed)
+{
+    for (std::size_t first = 0, end = 0; first < placed.size(); first = end) {
+        Node& node = scene.nodes[placed[first].node];
+        for (end = first; end < placed.size() && placed[end].node == placed[first].node;) ++end;
+        node.first_delta = static_cast<std::uint32_t>(scene.deltas.size());
+        for (std::size_t t = 0; t < node.weights.size(); ++t) {
+            for (std::size_t p = first; p < end; ++p) {
+                const auto& deltas = placed[p].mesh->targets[t];
+                scene.deltas.insert(scene.deltas.end(), deltas.begin(), deltas.end());
+            }
+        }
+    }
 }
 
 // alphaMode BLEND: see Material::alpha_mode. Only where something is indeed translucent.
@@ -273,7 +324,11 @@ Scene read_scene(const std::filesystem::path& file)
     MeshLibrary library(document, materials, scene.warnings);
     const std::vector<PlacedMesh> placed = place_meshes(document, scene.nodes, library);
 
-    const BoxWs box = bounding_box_ws(placed, scene.nodes);
+    check_skins(scene, placed, scene.warnings);
+    mark_dynamic(scene);
+
+    const std::vector<NodePose> rest = rest_pose(scene);
+    const BoxWs box = bounding_box_ws(scene, rest, placed);
     scene.origin_ws = 0.5 * (box.min + box.max);
     scene.bounds = {glm::vec3(box.min - scene.origin_ws), glm::vec3(box.max - scene.origin_ws)};
     std::size_t vertices = 0, indices = 0;
@@ -283,8 +338,8 @@ Scene read_scene(const std::filesystem::path& file)
     }
     scene.vertices.reserve(vertices);
     scene.indices.reserve(indices);
-    for (const PlacedMesh& place : placed) append(scene, place);
-    note_what_is_not_posed(scene, scene.warnings);
+    for (const PlacedMesh& place : placed) append(scene, rest, place);
+    keep_deltas(scene, placed);
 
     scene.materials = materials.materials;
     scene.images = read_images(document, materials.images, scene.warnings);

@@ -1,5 +1,6 @@
-// What of a scene can move: its nodes, animations and skins as the file gives them, as plain data. Nothing here has been
-// played: the loader places every mesh by the transforms that the nodes have in the file.
+// What of a scene can move: its nodes, animations and skins as the file gives them, and the vertices of what moves as they
+// were modelled, as plain data. pose.hpp plays them. The loader places everything as the file's nodes have it, skins and
+// morph targets included: the rest pose.
 #pragma once
 
 #include <cstdint>
@@ -45,16 +46,39 @@ struct Node {
     std::optional<glm::dmat4> matrix;   // of a node that has one in the file instead; nothing animates it (3.5.3)
     glm::dmat4 world_from_node{1.0};    // by the file's transforms; world space, not scene space: see Scene::origin_ws
 
-    // What the node placed, as it lies in Scene: vertices (scene space, with world_from_node applied) that no other node
-    // shares, the indices to them, and the draws over these. Counts are 0 where it has no triangles.
+    // What the node placed, as it lies in Scene: vertices (scene space, in the rest pose) that no other node shares, the
+    // indices to them, and the draws over these. Counts are 0 where it has no triangles.
     Range vertices, indices, draws;
     Bounds bounds;                      // of these vertices, scene space
-    std::vector<double> weights;        // of morph targets, the node's or else its mesh's; not applied to the vertices
-    int skin = -1;                      // index into Scene::skins, -1: none; not applied to the vertices
+    bool mirrored = false;              // its triangles were turned round, since its transform (or its skin's) mirrors them
+
+    // The same vertices as modelled, where the node is dynamic, has a skin or morph targets; else 0.
+    Range modelled;                     // of Scene::modelled, as many as `vertices` and in their order
+    std::uint32_t first_delta = 0;      // of Scene::deltas: modelled.count for each morph target, one target after the other
+    std::vector<double> weights;        // of morph targets, one each: the node's or else its mesh's
+    int skin = -1;                      // index into Scene::skins, -1: none
     int camera = -1, light = -1;        // index into Scene::cameras and Scene::lights that it carries, -1: none
+
+    // Whether what it placed may move: an animation moves the node, one above it, its morph targets or a joint of its skin;
+    // or the file's extras of the node or one above it say {"dynamic": true}.
+    bool dynamic = false;
     std::string extras, mesh_extras;    // JSON, "" where the file has none
 
     glm::dmat4 local_matrix() const { return matrix ? *matrix : local.matrix(); }
+};
+
+// A vertex in the space of its mesh, before node, skin and morph targets.
+struct ModelledVertex {
+    glm::vec3 position;
+    glm::vec3 normal;
+    glm::vec4 tangent;      // w as in Vertex, before any mirroring
+    glm::uvec4 joints{0};   // of the node's skin: indices into Skin::joints
+    glm::vec4 weights{0};   // of these joints, sum 1; 0 without a skin
+};
+
+// What a morph target with weight 1 adds to a vertex (glTF 2.0, 3.7.2.2).
+struct MorphDelta {
+    glm::vec3 position{0.0f}, normal{0.0f}, tangent{0.0f};
 };
 
 enum class Interpolation { step, linear, cubic_spline };

@@ -120,6 +120,18 @@ std::vector<Node> read_nodes(const Document& document)
             const tinygltf::Mesh& mesh = model.meshes.at(static_cast<std::size_t>(source.mesh));
             // glTF 2.0, 3.7.2.2: a node's weights stand for its mesh's.
             node.weights = source.weights.empty() ? mesh.weights : source.weights;
+            const std::size_t targets = mesh.primitives.empty() ? 0 : mesh.primitives[0].targets.size();
+            for (const tinygltf::Primitive& primitive : mesh.primitives) {
+                if (primitive.targets.size() != targets) {
+                    fail("meshes[" + std::to_string(source.mesh) +
+                         "] has primitives with different numbers of morph targets");
+                }
+            }
+            if (!node.weights.empty() && node.weights.size() != targets) {
+                fail(node_name(index) + " has " + std::to_string(node.weights.size()) + " weights for " +
+                     std::to_string(targets) + " morph targets");
+            }
+            node.weights.resize(targets, 0.0);
             node.mesh_extras = mesh.extras_json_string;
         }
         for (auto child = source.children.rbegin(); child != source.children.rend(); ++child) {

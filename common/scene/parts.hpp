@@ -10,7 +10,7 @@
 
 #include "image/resample.hpp"
 #include "scene/document.hpp"
-#include "scene/scene.hpp"
+#include "scene/pose.hpp"
 
 namespace conebook::gltf {
 
@@ -75,6 +75,11 @@ struct LocalMesh {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     int material = 0;
+    bool flat_normals = false;             // see Draw
+    std::vector<std::uint32_t> source;     // of each vertex: its index in the file
+    std::vector<glm::uvec4> joints;        // of each vertex; empty without JOINTS_0 and WEIGHTS_0
+    std::vector<glm::vec4> joint_weights;  // sum 1
+    std::vector<std::vector<MorphDelta>> targets;  // of each morph target, each vertex
 };
 // Empty when the primitive has no triangle (points, lines). `material` indexes `materials`.
 LocalMesh read_primitive(const Document& document, int mesh, std::size_t primitive, int material,
@@ -102,12 +107,24 @@ std::size_t shown_scene(const Document& document);
 std::vector<Node> read_nodes(const Document& document);
 
 // ---- animations.cpp ----
-// Node in Scene::nodes by its index in the file, -1: not in the scene.
-std::vector<int> nodes_by_file_index(const Document& document, const std::vector<Node>& nodes);
 // Both leave out, with a warning, what is not sound or refers to nodes outside the scene.
 std::vector<Animation> read_animations(const Document& document, const std::vector<Node>& nodes, Warnings& warnings);
 // Sets Node::skin.
 std::vector<Skin> read_skins(const Document& document, std::vector<Node>& nodes, Warnings& warnings);
+// Sets Node::dynamic.
+void mark_dynamic(Scene& scene);
+
+// ---- place.cpp ----
+// A vertex as the mesh has it, with its morph targets applied, by a matrix (world from mesh): positions by the matrix,
+// normals by its inverse transpose, tangents by the matrix. Position relative to `origin_ws`. A vertex that is flattened
+// to nothing keeps a normal of length 0.
+Vertex placed(Vertex vertex, const glm::dmat4& world_from_mesh, glm::dvec3 origin_ws);
+// A unit tangent perpendicular to the vertex's normal, now that this is known.
+void finish_tangent(Vertex& vertex);
+glm::dmat4 blended(const std::vector<glm::dmat4>& joint_matrices, glm::uvec4 joints, glm::vec4 weights);
+bool is_mirroring(const glm::dmat4& matrix);
+// The matrices of a node's vertices, world from mesh: one a joint where it has a skin, else one.
+std::vector<glm::dmat4> world_from_mesh(const Scene& scene, const std::vector<NodePose>& poses, std::size_t node);
 
 // ---- camera.cpp ----
 // Set Node::camera and Node::light.
@@ -115,6 +132,9 @@ std::vector<Camera> read_cameras(const Document& document, std::vector<Node>& no
                                  Warnings& warnings);
 std::vector<Light> read_lights(const Document& document, std::vector<Node>& nodes, glm::dvec3 origin_ws,
                                Warnings& warnings);
+// Position and direction of a node that carries them; false, and nothing changed, on a node without extent.
+bool place(Camera& camera, const glm::dmat4& world_from_node, glm::dvec3 origin_ws);
+bool place(Light& light, const glm::dmat4& world_from_node, glm::dvec3 origin_ws);
 // See scene.hpp, Scene::has_default_light.
 Light default_light(const Scene& scene);
 

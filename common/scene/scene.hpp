@@ -79,6 +79,8 @@ struct Draw {
     std::uint32_t first_index = 0, index_count = 0;
     int material = 0;
     std::string name;
+    Range vertices{};           // of Scene::vertices, those of the triangles
+    bool flat_normals = false;  // the file has no normals: three vertices of its own for each triangle, with its face normal
 };
 
 enum class LightType : int { directional = 0, point = 1, spot = 2 };
@@ -119,8 +121,10 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Camera> cameras;           // only those in the file, in the order of their nodes' indices
     std::vector<Node> nodes;               // of the file's scene, depth first; what each of them placed
-    std::vector<Animation> animations;     // not played
-    std::vector<Skin> skins;               // not applied
+    std::vector<Animation> animations;     // pose.hpp plays them
+    std::vector<Skin> skins;
+    std::vector<ModelledVertex> modelled;  // of what moves, see Node::modelled
+    std::vector<MorphDelta> deltas;        // see Node::first_delta
     std::string extras;                    // of the file's scene: JSON, "" where it has none
     // The file had neither a light nor an emissive surface, and `lights` holds one that the loader added: directional,
     // white, irradiance pi W/m^2 (a white diffuse surface facing it has radiance 1), from over the left shoulder of
@@ -135,8 +139,8 @@ struct Scene {
 // KHR_materials_specular, KHR_materials_unlit, KHR_texture_transform; any other is refused by name when the file
 // requires it and ignored with a warning when it does not. Flat normals where the file has none; tangents where it has
 // none. Mirrored nodes keep their front faces. Images wider or higher than 16384 are shrunk, with a warning. Not read, with
-// a warning: points and lines, morph targets, a material's third UV set. Skins and animations are kept and, with a
-// warning, not applied; those that are not sound are left out. Throws std::runtime_error with one line, "<file>: <fault>",
+// a warning: points and lines, a material's third UV set, a vertex's fifth joint. Animations and skins that are not sound
+// are left out, with a warning. Throws std::runtime_error with one line, "<file>: <fault>",
 // for anything damaged, for a scene without triangles, and for sizes beyond the limits in document.hpp.
 Scene load_scene(const std::filesystem::path& file);
 
