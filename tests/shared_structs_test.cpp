@@ -130,6 +130,7 @@ TEST_F(SharedStructs, CameraData)
 TEST_F(SharedStructs, ShadowLayerAndLight)
 {
     expect_member("shadow_layers[0].clip_from_scene", offsetof(shared::ShadowLayer, clip_from_scene));
+    expect_member("shadow_layers[0].place", offsetof(shared::ShadowLayer, place));
     expect_stride("shadow_layers[0].clip_from_scene", sizeof(shared::ShadowLayer));
     expect_member("shadow_lights[0].layers", offsetof(shared::ShadowLight, layers));
     expect_stride("shadow_lights[0].layers", sizeof(shared::ShadowLight));

@@ -21,7 +21,7 @@ const gl::Texture& ForwardPass::run(const GpuScene& scene, const shared::CameraD
     camera_buffer_.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     framebuffer_.bind(size);
     constexpr float kNothing[4] = {0.0f, 0.0f, 0.0f, 0.0f};
-    constexpr float kFarthest = 0.0f;  // reversed depth: 1 at the near plane, 0 at infinity
+    constexpr float kFarthest = 0.0f;  // reversed depth: 1 at the near plane, 0 at the far one
     glClearNamedFramebufferfv(framebuffer_.id(), GL_COLOR, 0, kNothing);
     glClearNamedFramebufferfv(framebuffer_.id(), GL_DEPTH, 0, &kFarthest);
 

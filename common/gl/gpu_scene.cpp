@@ -165,6 +165,7 @@ GpuScene::GpuScene(const Scene& scene)
         materials.push_back(material_data(m));
         has_emission_ = has_emission_ || m.emission != glm::vec3(0.0f) || m.unlit;
     }
+    for (const Node& node : scene.nodes) may_move_ = may_move_ || (node.dynamic && node.vertices.count > 0);
     material_buffer_ = gl::Buffer("materials", materials);
     material_uses_.resize(materials.size());
     std::vector<GLuint> triangle_materials(triangle_count_, 0u);
@@ -308,6 +309,22 @@ void GpuScene::for_each_material(const std::function<void(std::size_t)>& run) co
         run(material);
     }
     unbind_samplers();
+}
+
+std::vector<Triangle> GpuScene::triangles() const
+{
+    const auto vertices = vertex_buffer_.read<Vertex>();
+    const auto indices = index_buffer_.read<std::uint32_t>();
+    std::vector<Triangle> triangles;
+    triangles.reserve(triangle_count_);
+    for (const Draw& draw : draws_) {
+        const bool double_sided = materials_[std::size_t(draw.material)].double_sided;
+        for (std::size_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3)
+            triangles.push_back(
+                {{vertices[indices[i]].position, vertices[indices[i + 1]].position, vertices[indices[i + 2]].position},
+                 double_sided});
+    }
+    return triangles;
 }
 
 std::vector<gl::Resource> GpuScene::resources() const

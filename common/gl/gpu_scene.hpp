@@ -1,6 +1,7 @@
 // A scene in GPU memory, and how passes draw it.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -22,6 +23,11 @@ struct MaterialUse {
     bool vertex_alpha = false;  // some vertex has an alpha other than 1
     // Sums over triangles: sides of their boxes along x, y and z, m; areas seen along x, y and z, m^2.
     double box_sides_m = 0.0, seen_areas_m2 = 0.0;
+};
+
+struct Triangle {
+    std::array<glm::vec3, 3> corners;  // scene space; counter-clockwise from the front
+    bool double_sided;
 };
 
 class GpuScene {
@@ -47,17 +53,24 @@ public:
     // Bind the light list (kLightBinding) and set uniform int light_count.
     void bind_lights(const gl::Program& program) const;
 
+    // Vertex by vertex as in Scene. Who writes it marks that.
+    const gl::Buffer& vertices() const { return vertex_buffer_; }
+    void mark_moved() { ++geometry_revision_; }
     // Other lights than those of the file.
     void set_lights(const std::vector<Light>& lights);
     // What passes compare with what they were made from. Materials belong to the geometry.
     Revision geometry_revision() const { return geometry_revision_; }
     Revision lights_revision() const { return lights_revision_; }
 
+    // In the order of the draws, read back from GPU memory.
+    std::vector<Triangle> triangles() const;
+
     const Bounds& bounds() const { return bounds_; }
     const std::vector<Light>& lights() const { return lights_; }
     std::size_t triangle_count() const { return triangle_count_; }
     const std::vector<Material>& materials() const { return materials_; }
     const std::vector<MaterialUse>& material_uses() const { return material_uses_; }  // of each of materials()
+    bool may_move() const { return may_move_; }  // some of it: see Node::dynamic
     bool has_emission() const { return has_emission_; }
     bool has_textures() const { return !textures_.empty(); }
     std::vector<gl::Resource> resources() const;
@@ -67,7 +80,7 @@ private:
     std::size_t triangle_count_ = 0;
     Revision geometry_revision_ = 1, lights_revision_ = 1;
     Bounds bounds_;
-    bool has_emission_ = false;
+    bool has_emission_ = false, may_move_ = false;
     std::vector<Light> lights_;
     std::vector<Draw> draws_;
     std::vector<Material> materials_;

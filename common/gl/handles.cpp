@@ -134,7 +134,7 @@ Texture::Texture(const std::string& label, GLenum target, GLenum internal_format
     GLuint id = 0;
     glCreateTextures(target, 1, &id);
     handle_ = Handle<delete_texture>(id);
-    if (target == GL_TEXTURE_2D || target == GL_TEXTURE_CUBE_MAP)
+    if (target == GL_TEXTURE_2D)
         glTextureStorage2D(id, levels, internal_format, size.x, size.y);
     else
         glTextureStorage3D(id, levels, internal_format, size.x, size.y, size.z);
@@ -154,7 +154,7 @@ std::size_t Texture::bytes() const
         const bool is_3d = target_ == GL_TEXTURE_3D;
         texels += std::size_t(s.x) * std::size_t(s.y) * std::size_t(is_3d ? s.z : std::max(size_.z, 1));
     }
-    return texels * format_info(format_).bytes_per_texel * (target_ == GL_TEXTURE_CUBE_MAP ? 6 : 1);
+    return texels * format_info(format_).bytes_per_texel;
 }
 
 void Texture::set_filter(GLenum minification, GLenum magnification) const
@@ -268,10 +268,12 @@ void Framebuffer::attach_depth_layer(const Texture& depth, int layer) const
     glNamedFramebufferTextureLayer(id(), GL_DEPTH_ATTACHMENT, depth.id(), 0, layer);
 }
 
-void Framebuffer::bind(glm::ivec2 viewport_size) const
+void Framebuffer::bind(glm::ivec2 viewport_size) const { bind(glm::ivec2(0), viewport_size); }
+
+void Framebuffer::bind(glm::ivec2 viewport_corner, glm::ivec2 viewport_size) const
 {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
-    glViewport(0, 0, viewport_size.x, viewport_size.y);
+    glViewport(viewport_corner.x, viewport_corner.y, viewport_size.x, viewport_size.y);
 }
 
 VertexArray::VertexArray()
@@ -292,12 +294,6 @@ void dispatch_items(std::size_t items, GLuint group)
 {
     const glm::uvec3 groups = group_counts(items, group);
     if (items > 0) glDispatchCompute(groups.x, groups.y, groups.z);
-}
-
-void draw_fullscreen_triangle(const VertexArray& empty)
-{
-    glBindVertexArray(empty.id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 }  // namespace conebook::gl

@@ -109,7 +109,7 @@ std::size_t most_storage_bytes();
 void require_storage(const std::string& items, std::size_t count, std::size_t bytes_per_item,
                      const std::string& remedy);
 
-// Immutable storage. size.z is the depth (3D) or the number of layers (arrays; faces for cube map arrays).
+// Immutable storage. size.z is the depth (3D) or the number of layers (arrays).
 class Texture {
 public:
     Texture() = default;
@@ -158,6 +158,7 @@ public:
     GLuint id() const { return handle_.id(); }
     void attach_depth_layer(const Texture& depth, int layer) const;
     void bind(glm::ivec2 viewport_size) const;  // binds for drawing and sets the viewport to the whole of it
+    void bind(glm::ivec2 viewport_corner, glm::ivec2 viewport_size) const;
 
 private:
     void check(const std::string& label) const;
@@ -172,9 +173,6 @@ public:
 private:
     Handle<delete_vertex_array> handle_;
 };
-
-// A triangle that covers the viewport: three vertices from gl_VertexID, no buffers.
-void draw_fullscreen_triangle(const VertexArray& empty);
 
 // Number of work groups of `group` that cover `items`.
 inline GLuint group_count(std::size_t items, GLuint group) { return GLuint((items + group - 1) / group); }

@@ -13,11 +13,12 @@ void draw_pixels(const Program& program, const Framebuffer& framebuffer, const V
                  glm::ivec2 size, Write write)
 {
     framebuffer.bind(size);
-    glDisable(GL_DEPTH_TEST);
-    (write == Write::add ? glEnable : glDisable)(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE);
     program.use();
-    draw_fullscreen_triangle(no_vertices);
+    glBindVertexArray(no_vertices.id());
+    glBlendFunc(GL_ONE, GL_ONE);
+    if (write == Write::add) glEnable(GL_BLEND);
+    glDrawArrays(GL_TRIANGLES, 0, 3);  // common/fullscreen.vert: one triangle that covers everything
+    if (write == Write::add) glDisable(GL_BLEND);
 }
 
 }  // namespace conebook::gl

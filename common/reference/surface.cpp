@@ -3,18 +3,17 @@
 #include <array>
 #include <cmath>
 
+#include "image/resample.hpp"
+
 namespace conebook {
 namespace {
 
-// IEC 61966-2-1 sRGB to linear, for the 256 stored values.
+// sRGB to linear, for the 256 stored values.
 const std::array<float, 256>& srgb_to_linear()
 {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> t{};
-        for (int i = 0; i < 256; ++i) {
-            const double c = i / 255.0;
-            t[i] = float(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-        }
+        for (int i = 0; i < 256; ++i) t[i] = float(linear_from_srgb(i / 255.0));
         return t;
     }();
     return table;

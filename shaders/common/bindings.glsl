@@ -36,6 +36,11 @@ CONEBOOK_CONSTANT int kFragmentBinding = 6;
 CONEBOOK_CONSTANT int kLargeTriangleBinding = 7;
 CONEBOOK_CONSTANT int kSumBinding = 4;
 CONEBOOK_CONSTANT int kBlockBinding = 6;
+// Poses write the vertices.
+CONEBOOK_CONSTANT int kModelledBinding = 0;
+CONEBOOK_CONSTANT int kMorphDeltaBinding = 1;
+CONEBOOK_CONSTANT int kPoseMatrixBinding = 3;
+CONEBOOK_CONSTANT int kMorphWeightBinding = 4;
 // 03
 CONEBOOK_CONSTANT int kShadowLayerBinding = 4;
 CONEBOOK_CONSTANT int kShadowLightBinding = 6;

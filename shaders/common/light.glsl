@@ -12,7 +12,7 @@ struct LightSample {
     float distance;   // m to the light; kInfiniteDistance for directional lights
 };
 
-const float kInfiniteDistance = 1.0e9;  // m; its square is still a float
+const float kInfiniteDistance = 1.0e18;  // m, beyond every scene that is read; its square is still a float
 
 // snippet: sample_light
 LightSample sample_light(LightData light, vec3 position)

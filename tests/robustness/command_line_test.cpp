@@ -143,6 +143,21 @@ TEST_P(Program, GivesTheSamePictureFromAnotherFolderAndAfterMoreFrames)
     EXPECT_EQ(picture(accumulates ? "--frames 3 --set accumulate=off" : "--frames 3").rgba, here.rgba);
 }
 
+// What a pass leaves switched on, blending above all, shows only in the next frame and in passes that did not expect it.
+TEST_P(Program, LeavesNoStateBehindInTheNextFrame)
+{
+    const std::string parameters = run_program(GetParam(), "--list-params").output;
+    std::string set;
+    for (const std::string name : {"interleave", "accumulate"})  // the latter moves the camera by parts of a pixel
+        if (parameters.find(name + " ") != std::string::npos) set += " --set " + name + "=off";
+    const std::string view = "--scene '" + asset("emissive_shapes").string() + "'" + set + " --view ";
+    const std::string views = run_program(GetParam(), "--list-views").output;
+    for (const char* name : {"normal", "emission"}) {
+        if (views.find(name) == std::string::npos) continue;
+        EXPECT_EQ(picture(view + name + " --frames 3").rgba, picture(view + name).rgba) << name;
+    }
+}
+
 // A copy of shaders/ and assets/ with a fault planted in `file`; $CONEBOOK_ROOT names it while this object lives.
 class CopyOfTheRoot {
 public:
