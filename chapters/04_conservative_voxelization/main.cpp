@@ -6,7 +6,7 @@
 //     overlap  <=>  no axis a of the 13 separates:  max_i a.p_i < -r(a)  or  min_i a.p_i > r(a),  r(a) = |a|_1 / 2
 //
 // Page: docs/04_conservative_voxelization.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "04_conservative_voxelization/conservative_voxelizer.hpp"
 #include "app/app.hpp"
 
@@ -32,12 +32,13 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
+    app.show_meanwhile(first_light(app, scene, display_params));
     const VoxelGrid grid(scene.bounds(), grid_params);
     ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
     VoxelViewPass voxel_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // Triangles -> occupied voxels, at all levels.
         app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid); });
 
@@ -50,7 +51,7 @@ try {
                  [&] { linear = &voxel_view.run(grid, voxelizer.occupancy(), view_params, camera, app.size()); });
         const gl::Texture& display = tone_map.run(*linear, app.view().encoding, display_params);
         app.show(*linear, display);
-    }
+    });
 
     // Count what was made.
     const auto counted = voxelizer.statistics_buffer().read_at<shared::VoxelStatistics>(0);

@@ -6,7 +6,7 @@
 //     mean albedo = sum_i A_i rho_i / sum_i A_i      (the same for emission, normal and position)
 //
 // Page: docs/05_atomic_averaging.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "05_atomic_averaging/naive_average.hpp"
 #include "app/app.hpp"
 
@@ -50,6 +50,7 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
+    app.show_meanwhile(first_light(app, scene, display_params));
     const VoxelGrid grid(scene.bounds(), grid_params);
     ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
     VoxelFaces faces(app.shaders(), grid, voxelizer);
@@ -59,7 +60,7 @@ try {
     ToneMapPass tone_map(app.shaders());
     ChangeCounter changes;
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // Triangles -> occupied voxels.
         app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid); });
 
@@ -83,7 +84,7 @@ try {
             linear = &face_view.run(grid, voxelizer.occupancy(), faces, quantity, camera, app.size());
         });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     const shared::VoxelStatistics counted = faces.counted();
     std::vector<Count> counts = {{"occupied voxels", double(counted.voxels), ""},

@@ -6,7 +6,7 @@
 //
 // with the visibility V from shadow maps or from rays through the voxels themselves.
 // Page: docs/06_voxel_shading.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "06_voxel_shading/voxel_shading.hpp"
 #include "app/app.hpp"
 #include "app/needs.hpp"
@@ -34,6 +34,7 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
+    app.show_meanwhile(first_light(app, scene, display_params));
     const VoxelGrid grid(scene.bounds(), grid_params);
     ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
     ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
@@ -42,7 +43,7 @@ try {
     FaceViewPass face_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // snippet: frame
         // What the lights see, unless rays through the voxels are to tell.
         if (shading_params.voxel_shadows == int(VoxelShadows::map))
@@ -71,7 +72,7 @@ try {
             linear = &face_view.run(grid, voxelizer.occupancy(), faces, quantity, camera, app.size());
         });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     app.statistics().set_counts({{"occupied voxels", double(faces.voxel_count()), ""},
                                  {"occupied faces", double(faces.face_count()), ""}});

@@ -4,7 +4,7 @@
 //     gives E = pi Le R^2 / (R^2 + h^2)
 //
 // Page: docs/11_emissives.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
 #include "08_diffuse_cones/composite.hpp"
 #include "11_emissives/emitters.hpp"
@@ -37,6 +37,7 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
+    app.show_meanwhile(first_light(app, scene, display_params));
     ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     Emitters emitters(app.shaders(), app.scene(), voxels.grid(), emitter_params);
@@ -51,7 +52,7 @@ try {
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // What the lights see.
         app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
 
@@ -97,7 +98,7 @@ try {
             linear = &composite.run(g_buffer, direct, gathered, specular, parts, composite_params, cone_params.sky);
         });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     std::vector<Count> counts = voxels.counts();
     const glm::dvec3 power_w = emitted_power_w(voxels.faces(), voxels.grid());

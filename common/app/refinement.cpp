@@ -1,0 +1,27 @@
+#include "app/refinement.hpp"
+
+#include <algorithm>
+
+namespace conebook {
+
+void Refinement::change()
+{
+    divisor_ = answer_divisor_;
+    answers_ = true;
+    done_ = false;
+}
+
+void Refinement::shown(double seconds, bool more)
+{
+    // Time goes with the pixels. It has a part that does not, so what a coarse picture says of finer ones is too much:
+    // an answer comes sooner than asked.
+    const double whole_s = seconds * double(divisor_ * divisor_);
+    answer_divisor_ = 1;
+    while (answer_divisor_ < kCoarsest && whole_s > kAnswer_s * double(answer_divisor_ * answer_divisor_))
+        answer_divisor_ *= 2;
+    done_ = divisor_ == 1 && !more;
+    divisor_ = std::max(1, divisor_ / 2);
+    answers_ = false;
+}
+
+}  // namespace conebook
