@@ -84,13 +84,15 @@ bool App::next_window_frame()
     w.doing = Window::Doing::preparing;
     w.input.poll();
     // Nothing to refine: sleep until something happens.
-    while (w.follows && w.refinement.done() && !is_outdated() && !w.input.requests().screenshot) {
-        if (w.input.take().show_again) w.input.present(*display_);
+    while (w.follows && w.refinement.done() && !is_outdated()) {
+        const WindowRequests requests = w.input.take();
+        if (requests.screenshot) save_screenshot();
+        if (requests.show_again) w.input.present(*display_);
         constexpr double kLongest_s = 10.0;
         w.input.wait(kLongest_s);
     }
     const bool changed = take_requests();
-    if (w.screenshot && w.whole) save_screenshot();
+    if (w.screenshot && w.whole && (!changed || w.closing)) save_screenshot();
     if (w.closing && (w.whole || !w.follows || options_.output.empty())) return false;
     w.last = w.closing;
     if (changed) w.refinement.change();

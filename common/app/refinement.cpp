@@ -13,8 +13,8 @@ void Refinement::change()
 
 void Refinement::shown(double seconds, bool more)
 {
-    // Time goes with the pixels. It has a part that does not, so what a coarse picture says of finer ones is too much:
-    // an answer comes sooner than asked.
+    // Time goes with the pixels, but for a part that does not. So a coarse picture says too much of finer ones, which is
+    // safe, and a fine one too little of coarser ones, which the next answer corrects.
     const double whole_s = seconds * double(divisor_ * divisor_);
     answer_divisor_ = 1;
     while (answer_divisor_ < kCoarsest && whole_s > kAnswer_s * double(answer_divisor_ * answer_divisor_))
