@@ -105,6 +105,38 @@ class Sheet(unittest.TestCase):
         self.assertLessEqual(max(differences), 1)  # the two compute powers differently: rounding to bytes may differ by one
         self.assertGreater(max(max(pixel) for row in expected for pixel in row), 100)  # not a black picture
 
+    def test_labels_stand_above_their_pictures(self):
+        grey = [[(90, 90, 90)] * 60 for _ in range(5)]
+        alone = self.sheet([grey])
+        rows = self.sheet([grey, grey], "--gap", "2", "--label", "lit", "--label", "I")
+        self.assertEqual([row[:60] for row in rows[-5:]], alone)  # the picture stays as it is
+        self.assertEqual({pixel for row in rows[:-5] for pixel in row}, {(0, 0, 0), (255, 255, 255)})
+        ink = [sum(row[x] == (0, 0, 0) for row in rows[:-5] for x in part) for part in (range(60), range(62, 122))]
+        self.assertGreater(ink[0], ink[1])  # three letters, one letter
+        self.assertGreater(ink[1], 0)
+
+    def test_the_colour_bar_has_the_colours_of_the_programs(self):
+        grey = [[(90, 90, 90)] * 201 for _ in range(5)]
+        # shares of white as bytes; counts as linear light (shaders/common/color_scales.glsl, 2 and 4 of 1 .. 16);
+        # differences at -1, 0, 1 times their full colour
+        expected = {"grey": {0.2: (51,) * 3, 0.5: (128,) * 3},
+                    "counts": {0.25: [srgb(c) for c in (0.05, 0.25, 0.9)], 0.5: [srgb(c) for c in (0.1, 0.8, 0.2)]},
+                    "difference": {0.25: (0, 115, 255), 0.5: (0, 0, 0), 0.75: (255, 89, 0)}}
+        for colors, places in expected.items():
+            rows = self.sheet([grey], "--scale", colors, "--unit", "m")
+            bar = rows[5 + 8 + 9]  # below the picture and the gap, in the middle of the bar
+            for place, color in places.items():
+                found = bar[round(place * 200)]
+                self.assertLessEqual(max(abs(a - b) for a, b in zip(found, color)), 1, (colors, place, found))
+            self.assertGreater(sum(pixel == (0, 0, 0) for row in rows[5 + 8 + 18:] for pixel in row), 50)  # numbers, unit
+
+    def test_text_that_does_not_fit_is_refused(self):
+        picture = [[(0, 0, 0)] * 40] * 4
+        self.assertIn("'a long label' is wider than its picture of 40 pixels",
+                      self.sheet([picture], "--label", "a long label", code=1))
+        self.assertIn("1 labels for 2 pictures", self.sheet([picture, picture], "--label", "a", code=1))
+        self.assertIn("only ASCII can be written", self.sheet([picture], "--label", "\u00b2", code=1))
+
     def test_a_crop_outside_is_refused(self):
         message = self.sheet([[[(0, 0, 0)] * 4] * 4], "--crop", "2,2,3,1", code=1)
         self.assertEqual(len(message.splitlines()), 1, message)

@@ -6,6 +6,7 @@ import sys
 import tempfile
 import textwrap
 import unittest
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 TOOLS = Path(__file__).resolve().parent.parent / "tools"
@@ -211,6 +212,12 @@ class Pages(Repository):
         self.write("docs/figures/c.png", "c")
         self.fails("docs/figures/c.png: figures.txt does not say how it is made", *self.check(), lines=2)
 
+    def test_a_drawing_that_nobody_shows_is_found(self):
+        self.write("docs/figures/01_c.svg", "<svg/>")
+        self.fails("docs/figures/01_c.svg: no page shows it", *self.check())
+        self.edit("docs/01_first.md", "## Theory\n", "## Theory\n\n![a drawing](figures/01_c.svg)\n")
+        self.passes(*self.check())
+
     def test_a_chapter_without_page_is_found(self):
         self.edit("CMakeLists.txt", "add_chapter", "add_chapter(02_second)\nadd_chapter")
         self.fails("docs/02_second.md: chapter 02_second has no page", *self.check())
@@ -311,6 +318,36 @@ both.png: sheet --columns 2 a.png heat.png
         self.assertIn(f"--scene {self.root}/shared/there.glb", (self.figures / "a.png").read_text())
         self.edit("docs/figures/figures.txt", "there.glb", "not_there.glb")
         self.assertIn(f"a.png: skipped, there is no {self.root}/shared/not_there.glb", self.gallery("a.png", code=1))
+
+
+class Drawings(Repository):
+    CHECK = ("drawings", "--check")
+    NAME = "docs/figures/03_depth_compare.svg"
+
+    def setUp(self):
+        super().setUp()
+        code, out = self.tool("drawings")
+        self.assertEqual(code, 0)
+        self.assertIn("03_depth_compare.svg", out.splitlines())
+
+    def test_what_was_drawn_passes(self):
+        self.passes(*self.CHECK)
+
+    def test_drawings_are_well_formed_and_have_a_title(self):
+        for path in (self.root / "docs/figures").glob("*.svg"):
+            root = ElementTree.parse(path).getroot()
+            self.assertTrue(root.find("{http://www.w3.org/2000/svg}title").text, path.name)
+
+    def test_a_changed_a_missing_and_a_foreign_drawing_are_found(self):
+        self.edit(self.NAME, "light", "lamp")
+        self.fails(f"{self.NAME} is not what tools/drawings draws", *self.CHECK)
+        (self.root / self.NAME).unlink()
+        self.fails(f"{self.NAME} is missing", *self.CHECK)
+        self.tool("drawings")
+        self.write("docs/figures/03_other.svg", "<svg/>")
+        self.fails("docs/figures/03_other.svg is drawn by no function", *self.CHECK)
+        self.tool("drawings")
+        self.passes(*self.CHECK)
 
 
 if __name__ == "__main__":

@@ -72,10 +72,11 @@ TEST_P(Timer, CountsEveryPassOfEveryFrame)
         const auto work = [&] {
             texture.clear();
             ++runs;
+            return true;
         };
-        timer.time("every frame", work, statistics);
-        if (frame % 2 == 1) timer.time("odd frames", work, statistics);
-        if (frame == 0) timer.time("first frame", work, statistics);
+        timer.time("every frame", Scope::camera, work, statistics);
+        if (frame % 2 == 1) timer.time("odd frames", Scope::light, work, statistics);
+        if (frame == 0) timer.time("first frame", Scope::scene, work, statistics);
         timer.end_frame(statistics);
     }
     timer.finish(statistics);
@@ -106,7 +107,7 @@ TEST(GpuQueries, ResultsComeAtTheLatestWhenTheirFrameIsOld)
     };
     for (int frame = 1; frame <= 20; ++frame) {
         timer.time(
-            "pass", [] {}, statistics);
+            "pass", Scope::camera, [] { return true; }, statistics);
         const int before = frames_counted();
         EXPECT_LT(before, frame);  // this frame's is not asked for while it is drawn
         timer.end_frame(statistics);

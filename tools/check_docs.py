@@ -82,7 +82,10 @@ def check_links(root, pages, problems):
 
 
 def check_figures(root, shown, problems):
-    """Pictures, the lines of figures.txt and the pictures on pages must be the same set."""
+    """Pictures, the lines of figures.txt and the pictures on pages must be the same set.
+
+    Drawings (.svg) have no lines: tools/drawings makes them, and compares them itself.
+    """
     folder = root / "docs" / "figures"
     listing = folder / "figures.txt"
     lines = listing.read_text().splitlines() if listing.exists() else []
@@ -93,6 +96,7 @@ def check_figures(root, shown, problems):
         problems.append(f"docs/figures/figures.txt: {name} is listed, but there is no such picture (tools/gallery.py)")
     for name in sorted(present - listed):
         problems.append(f"docs/figures/{name}: figures.txt does not say how it is made")
+    present |= {path.name for path in folder.glob("*.svg")}
     for name in sorted(present - {path.name for path in shown if path.parent == folder}):
         problems.append(f"docs/figures/{name}: no page shows it")
 
@@ -164,7 +168,7 @@ def check_commands(root, page, bin_folder, problems):
         elif word == "" or word.startswith("-"):
             arguments.insert(0, word)
             name = "12_second_bounce"
-        elif word in ("report", "ladder", "reference", "compare", "NN"):
+        elif word in ("report", "bench", "ladder", "reference", "compare", "NN"):
             continue
         else:
             name = next((c for c in known if word in (c[:2], c, str(int(c[:2])))), None)

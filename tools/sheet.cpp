@@ -1,5 +1,6 @@
 // sheet: several pictures side by side in one PNG, for the figures of the pages.
 // Pictures are scaled by averaging linear light over each pixel's area, so a thumbnail is as bright as the original.
+// A label says what each picture is, a colour bar what its colours stand for.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -10,25 +11,25 @@
 
 #include <CLI/CLI.hpp>
 
-#include "image/image.hpp"
+#include "sheet_text.hpp"
 
 namespace {
 
-using conebook::Image8;
-using conebook::ImageF;
+using namespace conebook;
 
 struct Options {
     std::vector<std::string> files;
     std::string output;
-    int columns = 0;          // 0: all in one row
-    int width = 0;            // pixels of each picture; 0: as it is
-    int gap = 8;              // pixels between pictures
-    float exposure = 1.0f;    // factor on the radiance of .exr pictures
-    std::vector<int> crop;    // x, y, width, height in pixels of the original; row 0 on top
+    int columns = 0;                  // 0: all in one row
+    int width = 0;                    // pixels of each picture; 0: as it is
+    int gap = 8;                      // pixels between pictures
+    float exposure = 1.0f;            // factor on the radiance of .exr pictures
+    std::vector<int> crop;            // x, y, width, height in pixels of the original; row 0 on top
+    std::vector<std::string> labels;  // one a picture, or none
+    ScaleBar bar;                     // without colours: none
 };
 
 // IEC 61966-2-1
-float srgb_decode(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
 float srgb_encode(float v) { return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f; }
 
 // As the programs do it with their default parameters (shaders/01_first_light/tone_map.frag): Reinhard et al. 2002,
@@ -45,13 +46,13 @@ glm::vec3 tone_map(glm::vec3 radiance)
 ImageF read_picture(const std::string& file, float exposure)
 {
     if (std::filesystem::path(file).extension() == ".exr") {
-        ImageF image = conebook::read_exr(file);
+        ImageF image = read_exr(file);
         for (auto& p : image.pixels) {
             p = glm::vec4(tone_map(glm::max(glm::vec3(p) * exposure, glm::vec3(0))), 1);
         }
         return image;
     }
-    const Image8 stored = conebook::read_png(file);
+    const Image8 stored = read_png(file);
     ImageF image{stored.width, stored.height, {}};
     image.pixels.resize(std::size_t(image.width) * image.height);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -65,8 +66,8 @@ ImageF cut(const ImageF& image, const std::vector<int>& crop, const std::string&
 {
     const int x0 = crop[0], y0 = crop[1], width = crop[2], height = crop[3];
     if (x0 < 0 || y0 < 0 || width < 1 || height < 1 || x0 + width > image.width || y0 + height > image.height) {
-        throw std::runtime_error(file + ": the crop lies outside the picture of " + std::to_string(image.width) +
-                                 "x" + std::to_string(image.height));
+        throw std::runtime_error(file + ": the crop lies outside the picture of " + std::to_string(image.width) + "x" +
+                                 std::to_string(image.height));
     }
     ImageF result{width, height, {}};
     for (int y = 0; y < height; ++y) {
@@ -144,22 +145,29 @@ ImageF arrange(const std::vector<ImageF>& pictures, int columns, int gap)
 
 void make_sheet(const Options& options)
 {
+    const int count = int(options.files.size());
+    if (!options.labels.empty() && int(options.labels.size()) != count) {
+        throw std::runtime_error(std::to_string(options.labels.size()) + " labels for " + std::to_string(count) +
+                                 " pictures");
+    }
     std::vector<ImageF> pictures;
-    for (const auto& file : options.files) {
+    for (int i = 0; i < count; ++i) {
+        const std::string& file = options.files[i];
         ImageF image = read_picture(file, options.exposure);
         if (!options.crop.empty()) image = cut(image, options.crop, file);
         if (options.width > 0 && options.width != image.width) image = scale(image, options.width);
+        if (!options.labels.empty()) image = labelled(image, options.labels[i]);
         pictures.push_back(std::move(image));
     }
-    const int count = int(pictures.size());
     const int columns = options.columns > 0 ? std::min(options.columns, count) : count;
-    const ImageF sheet = arrange(pictures, columns, options.gap);
+    ImageF sheet = arrange(pictures, columns, options.gap);
+    if (!options.bar.colors.empty()) sheet = arrange({sheet, scale_bar(options.bar, sheet.width)}, 1, options.gap);
     Image8 stored{sheet.width, sheet.height, {}};
     for (const auto& p : sheet.pixels) {
         for (int c = 0; c < 3; ++c) stored.rgba.push_back(std::uint8_t(std::lround(255 * srgb_encode(p[c]))));
         stored.rgba.push_back(255);
     }
-    conebook::write_png(options.output, stored);
+    write_png(options.output, stored);
 }
 
 }  // namespace
@@ -179,6 +187,15 @@ int main(int argc, char** argv)
     app.add_option("--crop", options.crop, "X,Y,WIDTH,HEIGHT: only this part of each picture")
         ->delimiter(',')
         ->expected(4);
+    app.add_option("--label", options.labels, "text above a picture; once for each picture, in their order")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option(
+           "--scale", options.bar.colors,
+           "colour bar below: grey (0 to --scale-end), difference (full colour at --scale-end), counts (1 to 16)")
+        ->check(CLI::IsMember({"grey", "difference", "counts"}));
+    app.add_option("--scale-end", options.bar.end, "the value at the bar's end; default 1")->check(CLI::PositiveNumber);
+    app.add_option("--unit", options.bar.unit, "what the colour bar's numbers are");
     CLI11_PARSE(app, argc, argv);
     try {
         make_sheet(options);

@@ -27,6 +27,7 @@ public:
     ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params);
     // Draws the maps if scene or lights have changed, and says whether it did.
     bool draw(const GpuScene& scene);
+    void forget() { made_from_.forget(); }  // the next call draws whatever has changed, for measuring
     Revision revision() const { return revision_; }
     // For shaders that include common/shadow_map.glsl: kShadowLayerBinding, kShadowLightBinding, kShadowMapUnit.
     void bind(const gl::Program& program) const;

@@ -16,8 +16,8 @@ struct Ring {
     double weight;  // of each of them
 };
 
-// Rings from the pole outwards. For 6 the weights of Villegas 2016 (pi/4 and 3 pi/20, over pi); otherwise equal ones,
-// the ring sizes chosen so that the cells are about as high as they are wide.
+// Rings from the pole outwards. For 6 the weights of Villegas 2016, section 3.6.1 (pi/4 and 3 pi/20, over pi);
+// otherwise equal ones, the ring sizes chosen so that the cells are about as high as they are wide.
 std::vector<Ring> rings_of(int count)
 {
     switch (count) {

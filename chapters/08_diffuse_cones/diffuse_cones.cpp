@@ -93,79 +93,49 @@ void ConeVolumes::bind() const
     walk.bind();
 }
 
-DiffuseCones::DiffuseCones(gl::Shaders& shaders, const std::string& folder)
-    : points_program_(shaders.load({"common/fullscreen.vert", "08_diffuse_cones/points.frag"})),
-      filter_program_(shaders.load({"common/fullscreen.vert", "08_diffuse_cones/filter.frag"})),
-      gather_program_(shaders, {"common/fullscreen.vert", folder + "/gather.frag"}),
-      upsample_program_(shaders, {"common/fullscreen.vert", folder + "/upsample.frag"})
+DiffuseCones::DiffuseCones(gl::Shaders& shaders)
+    : points_(shaders),
+      gather_(shaders, {"common/fullscreen.vert", "08_diffuse_cones/gather.frag"}),
+      upsample_(shaders, {"common/fullscreen.vert", "08_diffuse_cones/upsample.frag"}),
+      filter_(shaders)
 {
 }
 
 const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes& volumes,
                                      const ConeDirections& directions, const ConeParams& cones,
-                                     const DiffuseConeParams& params, int sample,
-                                     const std::function<void(const gl::Program&)>& bind_more)
+                                     const DiffuseConeParams& params, int sample)
 {
-    scale_ = directions.sets() > 1 ? params.gather_scale : 1;
-    offset_ = glm::ivec2(sample, sample / scale_) % scale_;
-    const glm::ivec2 size = (g_buffer.size() + scale_ - 1) / scale_;
-    gl::fit_to_pixels(points_, points_framebuffer_, "points", GL_RGBA32UI, size);
-    gl::fit_to_pixels(gathered_, gathered_framebuffer_, "gathered light", GL_RGBA16F, size);
-    g_buffer.bind();
-    volumes.bind();
-
+    const bool share = directions.sets() > 1;
     // Where the points are that gather.
-    set_points(points_program_);
-    gl::draw_pixels(points_program_, points_framebuffer_, no_vertices_, size);
-    points_.bind(16);
+    points_.run(g_buffer, volumes.grid, share ? params.gather_scale : 1, sample);
 
     // Every point gathers by its own set of cones.
-    const gl::Program& gather = gather_program_.with(cone_defines(cones, volumes.pyramid));
-    bind(gather, directions, cones);
-    if (bind_more) bind_more(gather);
-    gl::draw_pixels(gather, gathered_framebuffer_, no_vertices_, size);
-    if (directions.sets() == 1) return gathered_;
+    gl::fit_to_pixels(gathered_, gathered_framebuffer_, "gathered light", GL_RGBA16F, points_.size());
+    volumes.bind();
+    const gl::Program& gather = gather_.with(cone_defines(cones, volumes.pyramid));
+    points_.bind(gather);
+    directions.bind(gather, cones);
+    gl::draw_pixels(gather, gathered_framebuffer_, no_vertices_, points_.size());
+    if (!share) return gathered_;
 
     // Points of one surface share what they gathered.
-    filter(size);
+    const gl::Texture& filtered = filter_.run(gathered_, g_buffer, points_);
 
     // Pixels take from the points around them.
     gl::fit_to_pixels(light_, light_framebuffer_, "indirect diffuse light", GL_RGBA16F, g_buffer.size());
-    const gl::Program& upsample = upsample_program_.with(cone_defines(cones, volumes.pyramid));
-    bind(upsample, directions, cones);
-    if (bind_more) bind_more(upsample);
-    gathered_.bind(17);
+    const gl::Program& upsample = upsample_.with(cone_defines(cones, volumes.pyramid));
+    points_.bind(upsample);
+    directions.bind(upsample, cones);
+    filtered.bind(17);
     gl::draw_pixels(upsample, light_framebuffer_, no_vertices_, g_buffer.size());
     return light_;
 }
 
-void DiffuseCones::set_points(const gl::Program& program) const
-{
-    program.set("gather_scale", scale_);
-    program.set("gather_offset", offset_);
-}
-
-void DiffuseCones::bind(const gl::Program& program, const ConeDirections& directions, const ConeParams& cones) const
-{
-    set_points(program);
-    directions.bind(program, cones);
-}
-
-void DiffuseCones::filter(glm::ivec2 size)
-{
-    gl::fit_to_pixels(filtered_, filtered_framebuffer_, "filtered light", GL_RGBA16F, size);
-    set_points(filter_program_);
-    gathered_.bind(17);
-    filter_program_.set("along", glm::ivec2(1, 0));
-    gl::draw_pixels(filter_program_, filtered_framebuffer_, no_vertices_, size);
-    filtered_.bind(17);
-    filter_program_.set("along", glm::ivec2(0, 1));
-    gl::draw_pixels(filter_program_, gathered_framebuffer_, no_vertices_, size);
-}
-
 std::vector<gl::Resource> DiffuseCones::resources() const
 {
-    return {points_.resource(), gathered_.resource(), filtered_.resource(), light_.resource()};
+    std::vector<gl::Resource> all = {points_.resource(), gathered_.resource(), light_.resource()};
+    for (const gl::Resource& resource : filter_.resources()) all.push_back(resource);
+    return all;
 }
 
 }  // namespace conebook

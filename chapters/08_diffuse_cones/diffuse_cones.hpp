@@ -1,11 +1,10 @@
 // Indirect diffuse light and ambient occlusion: many narrow cones, shared among neighbouring pixels.
 #pragma once
 
-#include <functional>
-
 #include "02_g_buffer/g_buffer.hpp"
 #include "07_anisotropic_mips/light_pyramid.hpp"
 #include "08_diffuse_cones/cone_sets.hpp"
+#include "08_diffuse_cones/gather_points.hpp"
 #include "08_diffuse_cones/walk_volume.hpp"
 
 
@@ -85,31 +84,21 @@ struct ConeVolumes {
 
 class DiffuseCones {
 public:
-    // `folder` below shaders/ holds gather.frag and upsample.frag; later chapters have their own, that gather more.
-    // `bind_more` gives these what they read beside the cones' volumes.
-    explicit DiffuseCones(gl::Shaders& shaders, const std::string& folder = "08_diffuse_cones");
+    explicit DiffuseCones(gl::Shaders& shaders);
 
-    // RGBA16F of the g-buffer's size: rgb E / pi in W/(sr m^2), a: ambient visibility 0..1.
+    // RGBA16F of the g-buffer's size: rgb E / pi in W/(sr m^2), a: ambient visibility 0..1. `sample`: as in ConeDirections.
     const gl::Texture& run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeDirections& directions,
-                           const ConeParams& cones, const DiffuseConeParams& params, int sample = 0,
-                           const std::function<void(const gl::Program&)>& bind_more = {});
-    // The points that gathered last, RGBA32UI (see points.glsl), and how many pixels along a side each stands for.
-    const gl::Texture& points() const { return points_; }
-    int scale() const { return scale_; }
-    // What gather.frag reads beside g-buffer and volumes, for `program`, which may be a variant of it.
-    void bind(const gl::Program& program, const ConeDirections& directions, const ConeParams& cones) const;
+                           const ConeParams& cones, const DiffuseConeParams& params, int sample = 0);
+    const GatherPoints& points() const { return points_; }  // of the last run
     std::vector<gl::Resource> resources() const;
 
 private:
-    void set_points(const gl::Program& program) const;
-    void filter(glm::ivec2 size);
-    int scale_ = 1;
-    glm::ivec2 offset_{0};
-    gl::Program points_program_, filter_program_;
-    gl::ProgramVariants gather_program_, upsample_program_;
+    GatherPoints points_;
+    gl::ProgramVariants gather_, upsample_;
+    PointFilter filter_;
     gl::VertexArray no_vertices_;
-    gl::Texture points_, gathered_, filtered_, light_;
-    gl::Framebuffer points_framebuffer_, gathered_framebuffer_, filtered_framebuffer_, light_framebuffer_;
+    gl::Texture gathered_, light_;
+    gl::Framebuffer gathered_framebuffer_, light_framebuffer_;
 };
 
 }  // namespace conebook

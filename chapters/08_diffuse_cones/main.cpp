@@ -1,8 +1,8 @@
-// 08_diffuse_cones: indirect diffuse light, one bounce, by a few wide cones from every pixel.
+// 08_diffuse_cones: indirect diffuse light, one bounce, by many narrow cones that leap over empty space.
 //
 // The hemisphere above a surface is divided among cones k with weights W_k that sum to 1:
 //
-//     L_o = rho * sum_k W_k L_k,     L_k = integral of (L sigma exp(-tau)) along the cone + exp(-tau_end) L_sky
+//     L_o = rho * sum_k W_k L_k,     L_k: the light where the coverage on the way passes the threshold of cone k, or the sky
 //
 // Page: docs/08_diffuse_cones.md
 #include "01_first_light/first_light.hpp"

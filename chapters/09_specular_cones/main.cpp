@@ -1,4 +1,4 @@
-// 09_specular_cones: glossy reflection by one cone a pixel, from mirror to matte.
+// 09_specular_cones: glossy reflection by a few cones a pixel, from mirror to matte.
 //
 // The GGX lobe around the mirror direction r becomes a cone that holds the share p of it; its mean radiance is weighted
 // with the lobe's directional albedo, which a table holds:

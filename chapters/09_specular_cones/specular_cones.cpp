@@ -40,8 +40,7 @@ void SpecularCones::bind(const gl::Program& program, const ConeParams& cones, co
 }
 
 const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
-                                      const SpecularConeParams& params, int sample,
-                                      const std::function<void(const gl::Program&)>& bind_more)
+                                      const SpecularConeParams& params, int sample)
 {
     gl::fit_to_pixels(lobe_light_, lobe_framebuffer_, "light in the lobe", GL_RGBA16F, g_buffer.size());
     gl::fit_to_pixels(specular_, specular_framebuffer_, "specular light", GL_RGBA16F, g_buffer.size());
@@ -50,7 +49,6 @@ const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const ConeVolumes
     volumes.bind();
     const gl::Program& trace = trace_.with(volumes.pyramid.defines());
     bind(trace, cones, params, sample);
-    if (bind_more) bind_more(trace);
     gl::draw_pixels(trace, specular_framebuffer_, no_vertices_, g_buffer.size());
 
     // Neighbours share wide lobes, there and back again; then what the surface reflects of it.

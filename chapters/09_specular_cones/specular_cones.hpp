@@ -20,13 +20,12 @@ void add_parameters(ParameterTable& table, SpecularConeParams& params);
 
 class SpecularCones {
 public:
-    // `folder` below shaders/ holds specular.frag; later chapters have their own. `bind_more` as in DiffuseCones.
+    // `folder` below shaders/ holds specular.frag; later chapters have their own.
     explicit SpecularCones(gl::Shaders& shaders, const std::string& folder = "09_specular_cones");
 
     // RGBA16F of the g-buffer's size: radiance towards the camera. `sample` as in ConeDirections.
     const gl::Texture& run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
-                           const SpecularConeParams& params, int sample = 0,
-                           const std::function<void(const gl::Program&)>& bind_more = {});
+                           const SpecularConeParams& params, int sample = 0);
     std::vector<gl::Resource> resources() const
     {
         return {lobe_light_.resource(), specular_.resource(), directional_albedo_.resource()};

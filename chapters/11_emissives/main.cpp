@@ -1,13 +1,12 @@
-// 11_emissives: surfaces that shine light the room: cones gather those nearby, rays are aimed at those far away.
+// 11_emissives: surfaces that shine light the room: exactly where nothing is in the way, and rays say what arrives.
 //
-//     E = sum_parts Le A cos cos' V / (d^2 + A / pi)   for parts of area A; a disc of radius R at height h above a plane
-//     gives E = pi Le R^2 / (R^2 + h^2)
+//     E = sum_triangles Le / 2 sum_edges angle (n . normal of the edge's plane)  x  arriving / unshadowed of shared rays
 //
 // Page: docs/11_emissives.md
 #include "01_first_light/first_light.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
 #include "08_diffuse_cones/composite.hpp"
-#include "11_emissives/emitters.hpp"
+#include "11_emissives/emitter_light.hpp"
 #include "app/needs.hpp"
 
 using namespace conebook;
@@ -46,8 +45,9 @@ try {
     GBuffer g_buffer(app.shaders(), app.size());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
     ConeDirections directions;
-    DiffuseCones diffuse_cones(app.shaders(), emitters.shader_folder("08_diffuse_cones"));
-    SpecularCones specular_cones(app.shaders(), emitters.shader_folder("09_specular_cones"));
+    DiffuseCones diffuse_cones(app.shaders());
+    EmitterLight emitter_light(app.shaders());
+    SpecularCones specular_cones(app.shaders(), emitters.specular_folder());
     const bool reflective = has_specular_surfaces(app.scene());
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
@@ -81,13 +81,16 @@ try {
         const gl::Texture *gathered = nullptr, *specular = nullptr;
         app.pass("diffuse cones", [&] {
             directions.update(cone_params, 0);
-            gathered = &diffuse_cones.run(g_buffer, volumes, directions, cone_params, diffuse_params, 0,
-                                          [&](const gl::Program& program) { emitters.bind(program, directions); });
+            gathered = &diffuse_cones.run(g_buffer, volumes, directions, cone_params, diffuse_params);
+        });
+        app.pass("emitters' light", [&] {
+            gathered = &emitter_light.run(g_buffer, volumes, emitters, diffuse_cones, *gathered, cone_params);
+            return emitters.are_apart();
         });
         if (reflective)
             app.pass("specular cones", [&] {
-                specular = &specular_cones.run(g_buffer, volumes, cone_params, specular_params, 0,
-                                               [&](const gl::Program& program) { emitters.bind_all(program); });
+                emitters.bind_emission();
+                specular = &specular_cones.run(g_buffer, volumes, cone_params, specular_params);
             });
 
         // Sum.

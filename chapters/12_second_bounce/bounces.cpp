@@ -33,7 +33,7 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     albedo_ = gl::Buffer("reflectance of faces", count * sizeof(GLuint));
     for (gl::Buffer& buffer : packed_) buffer = gl::Buffer("radiance of faces between bounces", count * sizeof(glm::uvec2));
     reflected_ = gl::Buffer("reflected by faces", count * sizeof(glm::vec4));
-    has_emitters_ = emitters.are_apart();
+    has_emitters_ = emitters.shine();
 
     voxels.grid().bind();
     voxels.faces().bind();
@@ -41,7 +41,8 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     walk.bind();
     gl::Defines defines = voxels.pyramid().defines();
     defines["MARCH"] = "0";
-    defines["EMITTERS"] = emitters.are_apart() ? "1" : "0";
+    defines["EMITTERS"] = emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0";
+    defines.merge(emitters.defines());
     const gl::Program& link = link_.with(defines);
     ConeParams rays = cones;
     rays.cones = params.links;
@@ -49,7 +50,7 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     ConeDirections directions;
     directions.update(rays, 0, kSets);
     directions.bind(link, rays);
-    emitters.bind(link, directions);
+    if (emitters.are_apart()) emitters.bind(link);
     links_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLinkBinding);
     from_emitters_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFromEmittersBinding);
     albedo_.bind(GL_SHADER_STORAGE_BUFFER, shared::kAlbedoBinding);

@@ -31,8 +31,9 @@ CameraLight::CameraLight(gl::Shaders& shaders, const SceneLight& light, glm::ive
       params_(params),
       g_buffer_(shaders, size),
       direct_lighting_(shaders),
-      diffuse_cones_(shaders, light.emitters().shader_folder("08_diffuse_cones")),
-      specular_cones_(shaders, light.emitters().shader_folder("09_specular_cones")),
+      diffuse_cones_(shaders),
+      emitter_light_(shaders),
+      specular_cones_(shaders, light.emitters().specular_folder()),
       composite_(shaders),
       accumulation_(shaders),
       pyramid_view_(shaders),
@@ -57,14 +58,17 @@ void CameraLight::gather(App& app)
     if (!light_.has_indirect()) return;
     directions_.update(params_.cones, sample_);
     app.pass("diffuse cones", [&] {
-        gathered_ = &diffuse_cones_.run(
-            g_buffer_, light_.volumes(), directions_, params_.cones, params_.diffuse, sample_,
-            [&](const gl::Program& program) { light_.emitters().bind(program, directions_); });
+        gathered_ = &diffuse_cones_.run(g_buffer_, light_.volumes(), directions_, params_.cones, params_.diffuse, sample_);
+    });
+    app.pass("emitters' light", [&] {
+        gathered_ = &emitter_light_.run(g_buffer_, light_.volumes(), light_.emitters(), diffuse_cones_, *gathered_,
+                                        params_.cones, sample_);
+        return light_.emitters().are_apart();
     });
     if (!has_specular_surfaces(app.scene())) return;
     app.pass("specular cones", [&] {
-        specular_ = &specular_cones_.run(g_buffer_, light_.volumes(), params_.cones, params_.specular, sample_,
-                                         [&](const gl::Program& program) { light_.emitters().bind_all(program); });
+        light_.emitters().bind_emission();
+        specular_ = &specular_cones_.run(g_buffer_, light_.volumes(), params_.cones, params_.specular, sample_);
     });
 }
 
@@ -94,8 +98,8 @@ const gl::Texture& CameraLight::composite(const std::string& view)
 std::vector<gl::Resource> CameraLight::resources() const
 {
     std::vector<gl::Resource> all = g_buffer_.resources();
-    for (const auto& part : {direct_lighting_.resources(), diffuse_cones_.resources(), specular_cones_.resources(),
-                             accumulation_.resources()})
+    for (const auto& part : {direct_lighting_.resources(), diffuse_cones_.resources(), emitter_light_.resources(),
+                             specular_cones_.resources(), accumulation_.resources()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }

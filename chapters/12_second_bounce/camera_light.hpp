@@ -3,6 +3,7 @@
 
 #include "02_g_buffer/g_buffer_view.hpp"
 #include "08_diffuse_cones/accumulation.hpp"
+#include "11_emissives/emitter_light.hpp"
 #include "12_second_bounce/scene_light.hpp"
 
 namespace conebook {
@@ -50,6 +51,7 @@ private:
     SoftShadowLighting direct_lighting_;
     ConeDirections directions_;
     DiffuseCones diffuse_cones_;
+    EmitterLight emitter_light_;
     SpecularCones specular_cones_;
     CompositePass composite_;
     Accumulation accumulation_;

@@ -24,6 +24,7 @@ SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene
 
 void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, bool ask_maps)
 {
+    if (params_.voxels.update == int(Update::always)) shadow_maps_.forget();
     // What the lights see, if pixels or voxels ask.
     if (ask_maps || params_.voxels.shading.voxel_shadows == int(VoxelShadows::map))
         app.pass("shadow maps", Scope::light, [&] { return shadow_maps_.draw(scene); });

@@ -19,8 +19,8 @@ void FetchCounter::run(const SceneLight& scene_light, const CameraLight& camera_
     const GBuffer& g_buffer = camera_light.g_buffer();
     const Emitters& emitters = scene_light.emitters();
     const ConeVolumes volumes = scene_light.volumes();
-    scale_ = camera_light.diffuse_cones().scale();
-    const glm::ivec2 points = camera_light.diffuse_cones().points().size_2d();
+    scale_ = camera_light.diffuse_cones().points().scale();
+    const glm::ivec2 points = camera_light.diffuse_cones().points().size();
     gl::fit_to_pixels(diffuse_counts_, diffuse_framebuffer_, "look-ups, diffuse", GL_RGBA32F, points);
     gl::fit_to_pixels(specular_counts_, specular_framebuffer_, "look-ups, specular", GL_RGBA32F, g_buffer.size());
     g_buffer.bind();
@@ -29,15 +29,15 @@ void FetchCounter::run(const SceneLight& scene_light, const CameraLight& camera_
     gl::Defines defines = cone_defines(params.cones, volumes.pyramid);
     defines["EMITTERS"] = emitters.are_apart() ? "1" : "0";
     const gl::Program& diffuse = diffuse_.with(defines);
-    camera_light.diffuse_cones().bind(diffuse, camera_light.directions(), params.cones);
-    emitters.bind(diffuse, camera_light.directions());
+    camera_light.diffuse_cones().points().bind(diffuse);
+    camera_light.directions().bind(diffuse, params.cones);
     gl::draw_pixels(diffuse, diffuse_framebuffer_, no_vertices_, points);
     // end snippet
     specular_counts_.clear();
     if (!has_specular) return;
     const gl::Program& specular = specular_.with(defines);
     camera_light.specular_cones().bind(specular, params.cones, params.specular, 0);
-    emitters.bind_all(specular);
+    emitters.bind_emission();
     gl::draw_pixels(specular, specular_framebuffer_, no_vertices_, g_buffer.size());
 }
 

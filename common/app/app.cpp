@@ -49,7 +49,6 @@ App::App(int argc, char** argv, ProgramInfo info)
     statistics_.add_needs({camera_need(scene_, options_.camera)});
     // The book's conventions for every pass: depth 1 near and 0 far, stored as float without loss.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
     if (context_.glfw_window() != nullptr) start_window();
 }
 
@@ -107,7 +106,7 @@ int App::sample(bool accumulate, Revision light)
 shared::CameraData App::camera() const
 {
     const glm::vec2 offset(radical_inverse(2, sample_), radical_inverse(3, sample_));
-    return moved(camera_data(camera_, size_), offset - glm::round(offset));
+    return moved(camera_data(camera_, size_, scene_.bounds), offset - glm::round(offset));
 }
 
 const View& App::view() const { return info_.views[view_index_]; }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 
+#include <glm/ext/matrix_clip_space.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -110,32 +111,22 @@ shared::LightData light_data(const Light& light)
     return data;
 }
 
-shared::CameraData camera_data(const Camera& camera, glm::ivec2 size)
+shared::CameraData camera_data(const Camera& camera, glm::ivec2 size, const Bounds& content)
 {
-    const float aspect = float(size.x) / float(size.y);
-    glm::mat4 clip_from_view(0.0f);
-    if (camera.orthographic) {
-        // Reversed depth: z_near -> 1, z_far -> 0.
-        const float far = camera.z_far > camera.z_near ? camera.z_far : camera.z_near + 1e4f;
-        clip_from_view[0][0] = 1.0f / camera.x_mag;
-        clip_from_view[1][1] = 1.0f / camera.y_mag;
-        clip_from_view[2][2] = 1.0f / (far - camera.z_near);
-        clip_from_view[3][2] = far / (far - camera.z_near);
-        clip_from_view[3][3] = 1.0f;
-    } else {
-        const float f = 1.0f / std::tan(0.5f * camera.y_fov);
-        clip_from_view[0][0] = f / aspect;
-        clip_from_view[1][1] = f;
-        clip_from_view[2][3] = -1.0f;
-        clip_from_view[3][2] = camera.z_near;
-    }
-    const glm::mat4 view_from_scene = glm::affineInverse(camera.world_from_camera);
+    // In double precision, rounded once at the end: from 100 km away the scene's 2 m are a difference of large numbers.
+    const glm::dmat4 scene_from_view(camera.world_from_camera), view_from_scene = glm::affineInverse(scene_from_view);
+    const auto [near, far] = visible_depths(camera, content);
+    // Reversed depth, 1 at the near plane and 0 at the far one: GLM's matrices with the two planes exchanged.
+    const glm::dmat4 clip_from_view =
+        camera.orthographic
+            ? glm::orthoRH_ZO<double>(-camera.x_mag, camera.x_mag, -camera.y_mag, camera.y_mag, far, near)
+            : glm::perspectiveRH_ZO<double>(camera.y_fov, double(size.x) / size.y, far, near);
     shared::CameraData data{};
     data.clip_from_scene = clip_from_view * view_from_scene;
-    data.scene_from_clip = camera.world_from_camera * glm::inverse(clip_from_view);
-    data.view_from_scene = view_from_scene;
+    data.scene_from_clip = scene_from_view * glm::inverse(clip_from_view);
     data.position = glm::vec4(glm::vec3(camera.world_from_camera[3]), camera.orthographic ? 0.0f : 1.0f);
-    data.forward = glm::vec4(-glm::vec3(camera.world_from_camera[2]), 0.0f);
+    const double in_front = std::min(near - double(camera.z_near), double(glm::length(content.extent())));
+    data.forward = glm::vec4(-glm::vec3(camera.world_from_camera[2]), in_front);
     data.size = glm::vec4(size, 1.0f / glm::vec2(size));
     return data;
 }

@@ -65,8 +65,9 @@ private:
     gl::Texture white_;
 };
 
-// Matrices of a camera for a picture of `size` pixels; reversed depth with an infinite far plane.
-shared::CameraData camera_data(const Camera& camera, glm::ivec2 size);
+// Matrices of a camera for a picture of `size` pixels. Depth is reversed and spread over what the camera can see of
+// `content`, the bounds of all that is drawn.
+shared::CameraData camera_data(const Camera& camera, glm::ivec2 size, const Bounds& content);
 // The same camera with its picture moved by a part of a pixel.
 shared::CameraData moved(const shared::CameraData& camera, glm::vec2 pixels);
 // LightData as the shaders read it.

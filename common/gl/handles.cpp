@@ -1,5 +1,6 @@
 #include "gl/handles.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string_view>
 
@@ -87,15 +88,19 @@ Buffer::Buffer(const std::string& label, std::size_t bytes, const void* data) : 
 
 void Buffer::write(std::size_t offset, std::size_t bytes, const void* data) const
 {
-    glNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), data);
+    if (bytes > 0) glNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), data);
 }
 
-void Buffer::clear() const { glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr); }
+void Buffer::clear() const
+{
+    if (*this) glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
 
 void Buffer::bind(GLenum target, GLuint index) const { glBindBufferBase(target, index, id()); }
 
 void Buffer::read_bytes(std::size_t offset, std::size_t bytes, void* out) const
 {
+    if (bytes == 0) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), out);
 }

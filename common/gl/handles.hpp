@@ -59,7 +59,8 @@ public:
     DebugGroup& operator=(const DebugGroup&) = delete;
 };
 
-// Immutable storage of `bytes` bytes, zeroed or filled from `data`.
+// Immutable storage of `bytes` bytes, zeroed or filled from `data`. One that was never made holds 0 bytes: it may be
+// bound, cleared and read like any other. Scenes without a voxel have such.
 class Buffer {
 public:
     Buffer() = default;

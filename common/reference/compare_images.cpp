@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
+#include "common/color_scales.glsl"
 #include "reference/flip.hpp"
 
 namespace conebook {
@@ -104,6 +106,7 @@ ImageMetrics compare_images(const ImageF& image, const ImageF& reference, const 
     const double floor2 = kRelativeFloor * m.mean_reference * m.mean_reference;
     std::vector<double> relative;
     relative.reserve(pairs.size());
+    double noise_smape = 0.0;
     for (const Pair& p : pairs) {
         const double d = std::abs(p.image - p.reference);
         const double both = std::abs(p.image) + std::abs(p.reference);
@@ -111,6 +114,8 @@ ImageMetrics compare_images(const ImageF& image, const ImageF& reference, const 
         relative.push_back(relative_error);
         m.mape += relative_error / n;
         m.smape += both > 0.0 ? d / both / n : 0.0;
+        const double noise = std::sqrt(2.0 / std::numbers::pi * p.variance);
+        noise_smape += noise > 0.0 ? std::min(noise / both, 1.0) / n : 0.0;
         m.rel_mse += d > 0.0 ? d * d / (p.reference * p.reference + floor2) / n : 0.0;
     }
     const auto rank = std::size_t(std::ceil(0.95 * n)) - 1;
@@ -119,6 +124,7 @@ ImageMetrics compare_images(const ImageF& image, const ImageF& reference, const 
     if (options.reference_error) {
         m.noise_rms = std::sqrt(variance);
         m.rmse_without_noise = std::sqrt(std::max(mse - variance, 0.0));
+        m.noise_smape = noise_smape;
         m.noisy_reference = *m.noise_rms > kNoiseShare * m.rmse;
     }
     if (options.flip) m.flip = hdr_flip_mean(image, reference);
@@ -130,7 +136,7 @@ Image8 error_heatmap(const ImageF& image, const ImageF& reference)
     check_size(image, reference, "the picture");
     Image8 map{image.width, image.height, {}};
     map.rgba.reserve(image.pixels.size() * 4);
-    const auto byte = [](double x) { return std::uint8_t(std::lround(255.0 * std::clamp(x, 0.0, 1.0))); };
+    const auto byte = [](float x) { return std::uint8_t(std::lround(255.0f * x)); };
     for (std::size_t k = 0; k < image.pixels.size(); ++k) {
         const glm::dvec3 a(image.pixels[k]), b(reference.pixels[k]);
         const double i = a.x + a.y + a.z, r = b.x + b.y + b.z;
@@ -139,12 +145,8 @@ Image8 error_heatmap(const ImageF& image, const ImageF& reference)
             continue;
         }
         // (I - R)/(I + R) is +-1/2 at a factor of three; the second half of the scale goes on to white.
-        const double e = i + r > 0.0 ? 2.0 * (i - r) / (i + r) : 0.0;
-        const double strong = std::abs(e), beyond = std::max(0.0, strong - 1.0);
-        if (e >= 0.0)
-            map.rgba.insert(map.rgba.end(), {byte(strong), byte(0.35 * strong * strong + beyond), byte(beyond), 255});
-        else
-            map.rgba.insert(map.rgba.end(), {byte(beyond), byte(0.45 * strong * strong + beyond), byte(strong), 255});
+        const glm::vec3 c = color_scales::difference_color(i + r > 0.0 ? float(2.0 * (i - r) / (i + r)) : 0.0f);
+        map.rgba.insert(map.rgba.end(), {byte(c.r), byte(c.g), byte(c.b), 255});
     }
     return map;
 }

@@ -19,12 +19,12 @@ void main()
     if (gl_GlobalInvocationID.x >= voxel_statistics.voxels) return;
     ivec3 voxel = unpack_voxel(voxel_list[gl_GlobalInvocationID.x]);
     uint entry = texelFetch(face_index, voxel, 0).r;
-    // snippet: projected
     vec4 sums[kFaceCount] = vec4[](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     for (uint i = entry >> 6; i < (entry >> 6) + uint(bitCount(face_mask(entry))); ++i) {
         VoxelFace face = faces[i];
         vec4 light = vec4(part.x * face_radiance[i].rgb + part.y * face.emission.rgb, 1.0);
 #if DIRECTIONS == 0
+        // snippet: projected
         vec3 area = face.albedo_area.a * face.normal.xyz, against = max(-area, vec3(0.0)), along = max(area, vec3(0.0));
         sums[0] += against.x * light;
         sums[1] += along.x * light;
@@ -32,16 +32,20 @@ void main()
         sums[3] += along.y * light;
         sums[4] += against.z * light;
         sums[5] += along.z * light;
+        // end snippet
 #else
         // Not per face: every direction holds what the direction that the face looks to most would.
+        int nearest = nearest_direction(face.normal.xyz);
         for (int direction = 0; direction < kFaceCount; ++direction)
-            sums[direction] += projected_area(face, nearest_direction(face.normal.xyz)) * light;
+            sums[direction] += projected_area(face, nearest) / column_weight(voxel, nearest, 0) * light;
 #endif
     }
     for (int direction = 0; direction < kFaceCount; ++direction) {
-        vec4 sum = sums[direction] / column_weight(voxel, direction, 0);
+        vec4 sum = sums[direction];
+#if DIRECTIONS == 0
+        sum /= column_weight(voxel, direction, 0);
+#endif
         sum /= max(sum.a, 1.0);  // surfaces behind each other cover no more than the whole
         store_texel(atlas_texel(direction, voxel, 0), vec4(sum.rgb / light_scale, sum.a));
     }
-    // end snippet
 }

@@ -1,6 +1,6 @@
 #version 450 core
 // Next level: of two voxels behind each other the front one hides as much of the back one as must overlap, four columns
-// beside each other are averaged (after Crassin 2011, section 5; Villegas 2016, section 4.6).
+// beside each other are averaged (after Crassin 2011, section 5; Villegas 2016, section 3.5.1).
 #include "07_anisotropic_mips/store_light.glsl"
 #include "07_anisotropic_mips/column_weight.glsl"
 #include "07_anisotropic_mips/occupied_levels.glsl"

@@ -11,10 +11,12 @@ layout(binding = kLightAtlasUnit) uniform sampler3D light_atlas;
 layout(binding = kEmissionAtlasUnit) uniform sampler3D emission_atlas;
 layout(std140, binding = kPyramidBlock) uniform PyramidBlock { float light_scale; };  // W/(sr m^2), 1 for formats that need none
 #ifdef SPLIT_COVERAGE
+const int kTexelsPerFetch = 2;  // for those who count
 layout(binding = kCoverageAtlasUnit) uniform sampler3D coverage_atlas;
 #define WITH_COVERAGE(fetch, place, level) vec4(fetch(light_atlas, place, level).rgb, fetch(coverage_atlas, place, level).r)
 #define COVERAGE(fetch, place, level) fetch(coverage_atlas, place, level).r
 #else
+const int kTexelsPerFetch = 1;
 #define WITH_COVERAGE(fetch, place, level) fetch(light_atlas, place, level)
 #define COVERAGE(fetch, place, level) fetch(light_atlas, place, level).a
 #endif
@@ -28,11 +30,9 @@ vec3 atlas_place(int face, vec3 p, int level)
 }
 
 // A voxel's own, and between the middles of voxels; p in voxels of the level, half a voxel inside the level's sides.
-// snippet: light_at
 vec4 light_of(int face, ivec3 voxel, int level) { return WITH_COVERAGE(texelFetch, atlas_texel(face, voxel, level), level); }
 vec4 light_at(int face, vec3 p, int level) { return WITH_COVERAGE(textureLod, atlas_place(face, p, level), float(level)); }
 float coverage_at(int face, vec3 p, int level) { return COVERAGE(textureLod, atlas_place(face, p, level), float(level)); }
-// end snippet
 vec3 emission_of(int face, ivec3 voxel, int level) { return texelFetch(emission_atlas, atlas_texel(face, voxel, level), level).rgb; }
 vec3 emission_at(int face, vec3 p, int level) { return textureLod(emission_atlas, atlas_place(face, p, level), float(level)).rgb; }
 

@@ -15,7 +15,7 @@ vec3 light_from(vec3 origin, vec3 direction, float t, int level)
     vec3 low = floor(grid.content_min.xyz / voxel) + 0.5, high = floor(grid.content_max.xyz / voxel) + 0.5;
     vec3 p = clamp((origin + direction * t) / voxel, low, high), weight = abs(direction);
     ivec3 faces = ivec3(0, 2, 4) + ivec3(lessThan(direction, vec3(0.0)));
-    COUNT_LIGHT_FETCHES(3)
+    COUNT_LIGHT_FETCHES(3 * kTexelsPerFetch)
     vec4 sum = weight.x * light_at(faces.x, p, level) + weight.y * light_at(faces.y, p, level) +
                weight.z * light_at(faces.z, p, level);
     vec3 premultiplied = light_scale * sum.rgb + EMITTED_LIGHT(faces, weight, p, level, t);

@@ -22,7 +22,7 @@ struct Gathered {
 };
 
 // Thresholds of all cones of all sets, spread evenly and without a pattern: multiples of the golden ratio (Weyl 1916).
-float threshold_of(int cone) { return kStopped * fract(first_threshold + float(cone) * 0.61803399); }
+float threshold_of(int cone) { return kStopped * fract(first_threshold + (float(cone) + 0.5) * 0.61803399); }
 
 // `set`: any number that differs among neighbours; it chooses their sets.
 // snippet: gather_diffuse

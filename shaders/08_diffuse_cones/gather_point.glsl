@@ -1,5 +1,6 @@
-// main() of the gathering programs. GATHER: what a point gathers. STORE: what it keeps of that.
+// main() of the gathering programs. STORE: what a point keeps of what it gathers.
 #include "common/g_buffer.glsl"
+#include "08_diffuse_cones/gather.glsl"
 #include "08_diffuse_cones/points.glsl"
 
 #ifndef STORE
@@ -17,6 +18,6 @@ void main()
     vec3 position = grid_from_scene(surface.position);
     RayStart start = start_above(position, surface.geometric_normal, start_offset);
     // In every 4 x 4 points each of the 16 sets comes once.
-    Gathered sum = GATHER(start, surface.geometric_normal, surface.normal, position, (place.x & 3) + 4 * (place.y & 3));
+    Gathered sum = gather_diffuse(start, surface.geometric_normal, surface.normal, (place.x & 3) + 4 * (place.y & 3));
     gathered = STORE(sum);
 }

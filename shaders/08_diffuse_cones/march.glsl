@@ -18,7 +18,7 @@ vec4 sample_level(vec3 position, vec3 direction, int level, float t)
     vec3 inside = step(grid.content_min.xyz, position) * step(position, grid.content_max.xyz);
     vec3 weight = abs(direction) * max(1.0 - abs(q - p), vec3(0.0)) * inside.yzx * inside.zxy;
     ivec3 faces = ivec3(0, 2, 4) + ivec3(lessThan(direction, vec3(0.0)));
-    COUNT_LIGHT_FETCHES(3)
+    COUNT_LIGHT_FETCHES(3 * kTexelsPerFetch)
     vec4 sum = weight.x * light_at(faces.x, p, level) + weight.y * light_at(faces.y, p, level) +
                weight.z * light_at(faces.z, p, level);
     return sum + vec4(EMITTED_LIGHT(faces, weight, p, level, t) / light_scale, 0.0);
@@ -59,5 +59,12 @@ ConeLight trace_cone(RayStart start, vec3 direction, float tan_half, float thres
         t += stride;
     }
     // end snippet
+    // What is left of a cone that leaves the bounds through a wall is an error of the steps.
+    if (open > 0.0 && closed_at(walk_ray(start.position, direction), start.position, exit)) {
+        vec4 wall = sample_level(start.position + direction * exit, direction, 0, exit);
+        radiance += open * light_scale * wall.rgb / max(wall.a, 1e-6);
+        occlusion += open * occlusion_at(exit);
+        open = 0.0;
+    }
     return ConeLight(radiance + open * sky_radiance, occlusion);
 }

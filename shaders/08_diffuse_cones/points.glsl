@@ -3,7 +3,7 @@
 #include "common/octahedral.glsl"
 #include "common/voxel_grid.glsl"
 
-layout(binding = 16) uniform usampler2D points;
+layout(binding = 16) uniform usampler2D gathering_points;
 uniform int gather_scale;
 uniform ivec2 gather_offset;  // of the pixel that gathers within its gather_scale x gather_scale pixels
 
@@ -24,3 +24,30 @@ bool same_surface(uvec4 point, vec3 position, vec3 geometric_normal, vec3 normal
     return abs(dot(to_point, geometric_normal)) < kPlaneTolerance &&
            dot(octahedral_decode(unpackSnorm2x16(point.w)), normal) > kMinCosine;
 }
+
+// The four points around a pixel, with the weights of those that lie on its surface: bilinear, their sum 1 if there is any.
+struct PointWeights {
+    ivec2 place[4];
+    float weight[4];
+    float sum;  // before it was made 1; 0: no point fits
+};
+
+// snippet: points_around
+PointWeights points_around(ivec2 pixel, vec3 position, vec3 geometric_normal, vec3 normal)
+{
+    vec2 place = vec2(pixel - gather_offset) / float(gather_scale), first = floor(place), part = place - first;
+    ivec2 last = textureSize(gathering_points, 0) - 1;
+    PointWeights result;
+    result.sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 corner = ivec2(i & 1, i >> 1);
+        result.place[i] = clamp(ivec2(first) + corner, ivec2(0), last);
+        vec2 bilinear = mix(1.0 - part, part, vec2(corner)) + 1e-4;
+        bool same = same_surface(texelFetch(gathering_points, result.place[i], 0), position, geometric_normal, normal);
+        result.weight[i] = same ? bilinear.x * bilinear.y : 0.0;
+        result.sum += result.weight[i];
+    }
+    for (int i = 0; i < 4; ++i) result.weight[i] /= max(result.sum, 1e-9);
+    return result;
+}
+// end snippet

@@ -1,4 +1,4 @@
-// A cone to a light: which share of the light do the voxels leave visible?
+// A cone to a light: which share of the light do the voxels leave visible? (After Villegas 2016, section 3.6.4.)
 #include "07_anisotropic_mips/pyramid.glsl"
 #include "common/light.glsl"
 #include "common/frame.glsl"

@@ -1,14 +1,14 @@
 #version 450 core
 // Where the light of every face comes from: its rays are walked once, and each keeps the face that it ends on. One thread a
 // face. What emitters send to the face does not depend on the light either, so it is gathered here too.
-// EMITTERS 1: some surface shines.
+// EMITTERS 0: no surface shines; 1: emission is apart; 2: rays meet it as they meet what is reflected.
 #include "common/voxel_counters.glsl"
 #include "05_atomic_averaging/face_index.glsl"
 #include "12_second_bounce/links.glsl"
-#if EMITTERS
-#include "11_emissives/gather_all.glsl"
-#else
 #include "08_diffuse_cones/gather.glsl"
+#if EMITTERS == 1
+#include "11_emissives/emitters.glsl"
+#include "12_second_bounce/hidden_by_emitter.glsl"
 #endif
 
 layout(local_size_x = 64) in;
@@ -29,11 +29,11 @@ float hashed(uint seed)
 
 // One of the faces round `position`, each with a probability in proportion to what it shows to the ray: its area times
 // -n.d, by the trilinear weight of its voxel. `u`: uniform in 0..1.
-// snippet: face_met
 uint face_met(vec3 position, vec3 direction, float u)
 {
     vec3 low = floor(grid.content_min.xyz) + 0.5, high = ceil(grid.content_max.xyz) - 0.5;
     vec3 p = clamp(position, low, high) - 0.5, first = floor(p), part = p - first;
+    // snippet: face_met
     uint chosen = kNoLink;
     float total = 0.0;
     for (int i = 0; i < 8; ++i) {
@@ -52,9 +52,9 @@ uint face_met(vec3 position, vec3 direction, float u)
             u = taken ? u / share : (u - share) / max(1.0 - share, 1e-6);
         }
     }
+    // end snippet
     return chosen;
 }
-// end snippet
 
 void main()
 {
@@ -76,13 +76,16 @@ void main()
         uint link = kSkyLink;
         if (end.stopped) link = face_met(start.position + direction * end.t, direction, hashed(place * uint(cone_count) + uint(i)));
         links[place * uint(cone_count) + uint(i)] = link;
-#if EMITTERS
-        if (link < kSkyLink) emitted += cones[ray].w * near_share(end.t) * faces[link].emission.rgb;
+#if EMITTERS == 2
+        if (link < kSkyLink) emitted += cones[ray].w * faces[link].emission.rgb;
 #endif
     }
     // end snippet
-#if EMITTERS
-    emitted += gather_emitters(start, normal, normal, position, set);
+#if EMITTERS == 1
+    if (!hidden_by_emitter(position, normal)) {
+        EmitterSamples samples = sample_emitters(start, position, normal, normal, set);
+        emitted = unshadowed_light(position, normal) * arriving_share(samples.arriving, samples.unshadowed);
+    }
 #endif
     from_emitters[place] = vec4(emitted, 0.0);
     albedo[place] = pack_albedo(face.albedo_area.rgb);

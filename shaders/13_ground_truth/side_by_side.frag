@@ -1,5 +1,6 @@
 #version 450 core
 // A picture and its reference: left half of one and right half of the other, or how far they are apart.
+#include "common/color_scales.glsl"
 
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D reference;
@@ -16,16 +17,6 @@ vec3 signed_difference(vec3 i, vec3 r)
 {
     vec3 sum = i + r;
     return mix(vec3(0.0), (i - r) / max(sum, vec3(1e-30)), greaterThan(sum, vec3(0.0)));
-}
-// end snippet
-
-// snippet: difference_color
-// Black at 0; red above, blue below, full at 1; on to white at 2. Brightness tells the amount, hue the sign.
-vec3 difference_color(float d)
-{
-    float strong = abs(d), beyond = clamp(strong - 1.0, 0.0, 1.0);
-    float first = min(strong, 1.0), second = min((d >= 0.0 ? 0.35 : 0.45) * strong * strong + beyond, 1.0);
-    return d >= 0.0 ? vec3(first, second, beyond) : vec3(beyond, second, first);
 }
 // end snippet
 

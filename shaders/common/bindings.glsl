@@ -45,6 +45,7 @@ CONEBOOK_CONSTANT int kLevelBinding = 6;
 CONEBOOK_CONSTANT int kWalkCellBinding = 4;
 CONEBOOK_CONSTANT int kWalkBitBinding = 6;
 // 11
+CONEBOOK_CONSTANT int kEmitterTriangleBinding = 3;
 CONEBOOK_CONSTANT int kEmitterBinding = 6;
 // 12
 CONEBOOK_CONSTANT int kRadianceBeforeBinding = 0;

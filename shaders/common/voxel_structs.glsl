@@ -38,11 +38,22 @@ struct VoxelFace {
     vec4 position;     // xyz: centroid in grid space
 };
 
-// A part of the emitting surfaces, that cones are aimed at.
+// A part of the emitting surfaces, that rays are aimed at.
 struct EmitterPart {
     vec4 position;   // xyz: grid space; w: radius of a disc of the part's area, voxels, squared
-    vec4 normal;     // xyz: unit
+    vec4 normal;     // xyz: unit; w: as bits, the directions in which something lies within its blur
     vec4 intensity;  // rgb: radiance times area, W/(sr m^2) x voxel sides squared
+};
+
+// Height above an emitter, in voxels, in which its own blur and that of what it hangs on would hide it: there rays against
+// the triangles themselves have been asked, in bands of equal solid angle from the horizon up, each in so many sectors.
+CONEBOOK_CONSTANT float kEmitterBlur = 1.5;
+CONEBOOK_CONSTANT int kMaskBands = 4;
+CONEBOOK_CONSTANT int kMaskSectors = 8;
+
+// An emitting triangle of even radiance, in grid space; its front winds counter-clockwise.
+struct EmitterTriangle {
+    vec4 a, b, c;  // xyz: corners; w: radiance, red, green and blue, W/(sr m^2)
 };
 
 // Sums of one face as 64-bit fixed point numbers: word i is the low half of sum i, word kSumCount + i its high half,

@@ -124,6 +124,9 @@ check_has "the ladder" "^python3 $repository/tools/ladder.py --bin $repository/b
 call -- run report --quick --no-figures
 check_has "report builds what it measures" '^ninja .* 14_speed_against_error 12_second_bounce reference compare sheet$' "$log"
 check_has "report" "^python3 $repository/tools/report.py --quick --no-figures\$" "$log"
+call -- run bench --quick --no-figures
+check_has "bench builds what it measures" '^ninja .* 14_speed_against_error bench_fetch$' "$log"
+check_has "bench" "^python3 $repository/tools/bench.py --quick --no-figures\$" "$log"
 rm "$work/fakes/python3"
 call -- run 07 --set bad=1
 check "the program's code" 3 "$code"
