@@ -41,8 +41,8 @@ Shaded shade(const Scene& scene, const Camera& camera, const ShadowMapParams& pa
     const GpuScene gpu_scene(scene);
     GBuffer g_buffer(shaders, kPicture);
     g_buffer.draw(gpu_scene, camera_data(camera, kPicture, scene.bounds));
-    ShadowMaps maps(shaders, gpu_scene, params);
-    maps.draw(gpu_scene);
+    ShadowMaps maps(shaders);
+    maps.draw(gpu_scene, params);
     DirectLightingPass with(shaders, Shadows::maps), without(shaders, Shadows::none);
     maps.bind(with.program());
     const ImageF shadowed = read_picture(with.run(g_buffer, gpu_scene, LightingOutput::direct));
@@ -387,15 +387,16 @@ TEST(ShadowMap, ManyLightsEachHaveTheirOwn)
     b.point_light({0, 2, 2}, {0, 0, 10});
     const Scene scene = b.build();
     const GpuScene gpu_scene(scene);
-    const ShadowMaps maps(test_gl().shaders, gpu_scene, map_params());
+    ShadowMaps maps(test_gl().shaders);
+    maps.draw(gpu_scene, map_params());
     EXPECT_EQ(maps.layers(), 0 + 1 + 1 + 6);
     // One colour a light: the picture of all of them is the sum of the pictures of one each.
     GBuffer g_buffer(test_gl().shaders, kPicture);
     const auto direct = [&](const Scene& s) {
         const GpuScene gpu(s);
         g_buffer.draw(gpu, camera_data(cameras({1, 1, 1})[0], kPicture, s.bounds));
-        ShadowMaps own(test_gl().shaders, gpu, map_params());
-        own.draw(gpu);
+        ShadowMaps own(test_gl().shaders);
+        own.draw(gpu, map_params());
         DirectLightingPass lighting(test_gl().shaders, Shadows::maps);
         own.bind(lighting.program());
         return read_picture(lighting.run(g_buffer, gpu, LightingOutput::direct));
@@ -418,7 +419,8 @@ TEST(ShadowMap, ManyLightsShareALimitedMemory)
     ShadowMapParams params;
     params.shadow_map_size = 2048;  // 360 maps of 16 MiB each would be 5.6 GiB
     const GpuScene gpu_scene(scene);
-    const ShadowMaps maps(test_gl().shaders, gpu_scene, params);
+    ShadowMaps maps(test_gl().shaders);
+    maps.draw(gpu_scene, params);
     EXPECT_EQ(maps.layers(), 360);
     EXPECT_EQ(maps.size(), 512);
     EXPECT_LE(maps.depth().bytes(), std::size_t(1) << 30);

@@ -146,8 +146,8 @@ TEST(Voxelizer, FragmentsArePairsOfTriangleAndVoxel)
     const Scene scene = triangle_soup(random_triangles(random, 500, unit_bounds(32), 0.1f, 10.0f));
     const GpuScene gpu_scene((test_gl(), scene));
     const VoxelGrid grid(scene.bounds, {32});
-    ConservativeVoxelizer voxelizer(test_gl().shaders, grid, {int(Voxelizer::raster), true, true});
-    voxelizer.run(gpu_scene, grid);
+    ConservativeVoxelizer voxelizer(test_gl().shaders);
+    voxelizer.run(gpu_scene, grid, {int(Voxelizer::raster), true, true});
     std::size_t sum = 0;
     const auto counts = gl::read_uints(voxelizer.fragment_counts()), masks = gl::read_uints(voxelizer.occupancy());
     for (std::size_t i = 0; i < counts.size(); ++i) {

@@ -31,7 +31,7 @@ try {
 
     const GpuScene scene(app.scene());
     app.show_meanwhile(first_light(app, scene, display_params));
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    ShadowMaps shadow_maps(app.shaders());
     LayerViewPass layer_view(app.shaders());
     GBuffer g_buffer(app.shaders(), app.size());
     GBufferViewPass g_buffer_view(app.shaders());
@@ -41,7 +41,7 @@ try {
     app.each_frame([&] {
         // snippet: frame
         // What the lights see.
-        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // What the camera sees.
         g_buffer.resize(app.size());

@@ -104,31 +104,48 @@ std::vector<glm::mat4> shadow_matrices(const Light& light, const Bounds& bounds,
     return faces;
 }
 
-ShadowMaps::ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params)
-    : params_(params), program_(shaders.load({"03_shadow_map/shadow.vert", "03_shadow_map/shadow.frag"}))
+ShadowMaps::ShadowMaps(gl::Shaders& shaders)
+    : program_(shaders.load({"03_shadow_map/shadow.vert", "03_shadow_map/shadow.frag"}))
 {
-    std::size_t layer_count = 0;
-    for (const Light& light : scene.lights())
-        layer_count += shadow_matrices(light, scene.bounds(), params.shadow_map_size).size();
-    const int size = layer_count > 0 ? fitting_size(params.shadow_map_size, layer_count) : 1;  // a texel to bind
+    allocate({}, {}, 1);  // until they are drawn, there is something to bind
+}
 
-    std::vector<shared::ShadowLight> lights;
-    for (const Light& light : scene.lights()) {
-        const std::vector<glm::mat4> matrices = shadow_matrices(light, scene.bounds(), size);
-        lights.push_back({glm::ivec4(layers(), int(matrices.size()), 0, 0)});
-        for (const glm::mat4& m : matrices) layers_.push_back({m});
-    }
+void ShadowMaps::allocate(const std::vector<shared::ShadowLight>& lights, std::vector<shared::ShadowLayer> layers,
+                          int size)
+{
+    layers_ = std::move(layers);
     layer_buffer_ = gl::Buffer("shadow layers", layers_);
     light_buffer_ = gl::Buffer("shadow lights", lights);
-    depth_ = gl::Texture("shadow maps", GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F,
-                         {size, size, std::max(layers(), 1)});
+    const glm::ivec3 texels(size, size, std::max(this->layers(), 1));
+    if (depth_ && depth_.size() == texels) return;
+    depth_ = gl::Texture("shadow maps", GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, texels);
     framebuffer_ = gl::Framebuffer("shadow maps", {}, &depth_);
 }
 
-bool ShadowMaps::draw(const GpuScene& scene)
+void ShadowMaps::fit(const GpuScene& scene, int wanted_size)
 {
-    if (!made_from_.differs(scene.geometry_revision(), scene.lights_revision())) return false;
+    std::size_t layer_count = 0;
+    for (const Light& light : scene.lights()) layer_count += shadow_matrices(light, scene.bounds(), wanted_size).size();
+    const int size = layer_count > 0 ? fitting_size(wanted_size, layer_count) : 1;
+    std::vector<shared::ShadowLight> lights;
+    std::vector<shared::ShadowLayer> layers;
+    for (const Light& light : scene.lights()) {
+        const std::vector<glm::mat4> matrices = shadow_matrices(light, scene.bounds(), size);
+        lights.push_back({glm::ivec4(int(layers.size()), int(matrices.size()), 0, 0)});
+        for (const glm::mat4& m : matrices) layers.push_back({m});
+    }
+    allocate(lights, std::move(layers), size);
+}
+
+bool ShadowMaps::draw(const GpuScene& scene, const ShadowMapParams& params)
+{
+    // How the maps are looked into changes what is lit, but not the maps.
+    if (looked_into_.differs(params.shadow_bias, params.shadow_receiver_plane)) ++revision_;
+    params_ = params;
+    if (!made_from_.differs(scene.geometry_revision(), scene.lights_revision(), params.shadow_map_size)) return false;
     ++revision_;
+    drawn_ = true;
+    fit(scene, params.shadow_map_size);
     // snippet: draw
     framebuffer_.bind(depth_.size_2d());
     glEnable(GL_DEPTH_TEST);
@@ -165,8 +182,8 @@ std::vector<Need> ShadowMaps::needs(const GpuScene& scene) const
         const std::size_t maps = shadow_matrices(light, scene.bounds(), size()).size();
         const std::string of = " of light " + std::to_string(needs.size()), type = kTypes[int(light.type)];
         const std::string how_many = maps == 1 ? "one map" : std::to_string(maps) + " maps";
-        const std::string why = maps == 0 ? " without intensity" : revision_ > 0 ? ": " + how_many : ": no pass asks its maps";
-        needs.push_back({"shadow map" + of, revision_ > 0 && maps > 0, type + why});
+        const std::string why = maps == 0 ? " without intensity" : drawn_ ? ": " + how_many : ": no pass asks its maps";
+        needs.push_back({"shadow map" + of, drawn_ && maps > 0, type + why});
     }
     return needs;
 }

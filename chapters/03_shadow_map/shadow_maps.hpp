@@ -21,13 +21,14 @@ struct ShadowMapParams {
 void add_parameters(ParameterTable& table, ShadowMapParams& params);
 
 // Directional and spot lights have one layer of a depth array, point lights (and spots wider than 75 degrees) six.
-// Throws std::runtime_error when the scene's lights need more layers than the driver has.
 class ShadowMaps {
 public:
-    ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params);
-    // Draws the maps if scene or lights have changed, and says whether it did.
-    bool draw(const GpuScene& scene);
+    explicit ShadowMaps(gl::Shaders& shaders);
+    // Draws the maps if scene, lights or their size have changed, and says whether it did. Throws std::runtime_error when
+    // the scene's lights need more layers than the driver has.
+    bool draw(const GpuScene& scene, const ShadowMapParams& params);
     void forget() { made_from_.forget(); }  // the next call draws whatever has changed, for measuring
+    // Changes whenever the maps do, or how they are looked into.
     Revision revision() const { return revision_; }
     // For shaders that include common/shadow_map.glsl: kShadowLayerBinding, kShadowLightBinding, kShadowMapUnit.
     void bind(const gl::Program& program) const;
@@ -41,9 +42,13 @@ public:
     std::vector<Need> needs(const GpuScene& scene) const;
 
 private:
-    ShadowMapParams params_;
-    MadeFrom<Revision, Revision> made_from_;  // geometry, lights
+    void fit(const GpuScene& scene, int wanted_size);
+    void allocate(const std::vector<shared::ShadowLight>& lights, std::vector<shared::ShadowLayer> layers, int size);
+    ShadowMapParams params_;                       // of the last draw
+    MadeFrom<Revision, Revision, int> made_from_;  // geometry, lights, size
+    MadeFrom<float, bool> looked_into_;            // bias, receiver plane
     Revision revision_ = 0;
+    bool drawn_ = false;
     gl::Program program_;
     std::vector<shared::ShadowLayer> layers_;
     gl::Buffer layer_buffer_, light_buffer_;

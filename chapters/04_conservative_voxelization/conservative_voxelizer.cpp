@@ -33,33 +33,37 @@ void for_each_column(const gl::Program& program, Voxelizer voxelizer, const GpuS
     scene.draw(program, Culling::none);
 }
 
-namespace {
+ConservativeVoxelizer::ConservativeVoxelizer(gl::Shaders& shaders)
+    : raster_mark_(shaders,
+                   {"04_conservative_voxelization/conservative.vert", "04_conservative_voxelization/conservative.geom",
+                    "04_conservative_voxelization/mark.frag"}),
+      compute_mark_(shaders, {"04_conservative_voxelization/mark.comp"}),
+      next_level_(shaders.load({"04_conservative_voxelization/occupancy_level.comp"})),
+      statistics_("voxel statistics", sizeof(shared::VoxelStatistics))
+{
+}
 
-gl::Program load_mark(gl::Shaders& shaders, const VoxelizerParams& params)
+const gl::Program& ConservativeVoxelizer::mark_program(const VoxelizerParams& params)
 {
     const gl::Defines defines = {{"CONSERVATIVE", params.conservative ? "1" : "0"},
                                  {"COUNT_FRAGMENTS", params.count_fragments ? "1" : "0"},
                                  {"ATTRIBUTES", "0"}};
-    if (Voxelizer(params.voxelizer) == Voxelizer::compute) {
-        if (!params.conservative) throw std::runtime_error("conservative=off is for voxelizer=raster only");
-        return shaders.load({"04_conservative_voxelization/mark.comp"}, defines);
-    }
-    return shaders.load({"04_conservative_voxelization/conservative.vert",
-                         "04_conservative_voxelization/conservative.geom", "04_conservative_voxelization/mark.frag"},
-                        defines);
+    if (Voxelizer(params.voxelizer) == Voxelizer::raster) return raster_mark_.with(defines);
+    if (!params.conservative) throw std::runtime_error("conservative=off is for voxelizer=raster only");
+    return compute_mark_.with(defines);
 }
 
-}  // namespace
-
-ConservativeVoxelizer::ConservativeVoxelizer(gl::Shaders& shaders, const VoxelGrid& grid, const VoxelizerParams& params)
-    : voxelizer_(Voxelizer(params.voxelizer)),
-      mark_(load_mark(shaders, params)),
-      next_level_(shaders.load({"04_conservative_voxelization/occupancy_level.comp"})),
-      occupancy_(gl::texture_3d("occupancy", GL_R32UI, grid.size(), grid.levels())),
-      statistics_("voxel statistics", sizeof(shared::VoxelStatistics)),
-      column_plane_("column plane", glm::ivec2(std::max({grid.size().x, grid.size().y, grid.size().z})))
+void ConservativeVoxelizer::allocate(const VoxelGrid& grid, const VoxelizerParams& params)
 {
-    if (params.count_fragments) fragment_counts_ = gl::texture_3d("fragment counts", GL_R32UI, grid.size());
+    const glm::ivec3 size = grid.size();
+    if (!occupancy_ || occupancy_.size() != size || occupancy_.levels() != grid.levels()) {
+        occupancy_ = gl::texture_3d("occupancy", GL_R32UI, size, grid.levels());
+        column_plane_ = gl::Framebuffer("column plane", glm::ivec2(std::max({size.x, size.y, size.z})));
+    }
+    if (!params.count_fragments)
+        fragment_counts_ = {};
+    else if (!fragment_counts_ || fragment_counts_.size() != size)
+        fragment_counts_ = gl::texture_3d("fragment counts", GL_R32UI, size);
 }
 
 std::vector<gl::Resource> ConservativeVoxelizer::resources() const
@@ -69,10 +73,13 @@ std::vector<gl::Resource> ConservativeVoxelizer::resources() const
     return resources;
 }
 
-bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
+bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params)
 {
-    if (!made_from_.differs(scene.geometry_revision())) return false;
+    if (!made_from_.differs(scene.geometry_revision(), grid.revision(), params)) return false;
+    const gl::Program& mark = mark_program(params);
     ++revision_;
+    voxelizer_ = Voxelizer(params.voxelizer);
+    allocate(grid, params);
     // Clear what the last frame marked.
     occupancy_.clear();
     statistics_.clear();
@@ -84,7 +91,7 @@ bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
     // Mark every voxel that a triangle overlaps.
     statistics_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
     occupancy_.bind_image(0, 0, GL_READ_WRITE);
-    for_each_column(mark_, voxelizer_, scene, grid, column_plane_);
+    for_each_column(mark, voxelizer_, scene, grid, column_plane_);
 
     // Carry the marks to the coarser levels.
     next_level_.use();
@@ -95,8 +102,7 @@ bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
         const glm::ivec3 groups = (glm::max(grid.size() >> level, glm::ivec3(1)) + 3) / 4;
         glDispatchCompute(GLuint(groups.x), GLuint(groups.y), GLuint(groups.z));
     }
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                    GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     return true;
 }
 

@@ -15,6 +15,7 @@ struct VoxelizerParams {
     bool conservative = true;
     // Keep how many fragments fell into each voxel: fragment_counts(). Costs a volume; for chapter 04's views.
     bool count_fragments = false;
+    bool operator==(const VoxelizerParams&) const = default;
 };
 // Enters `voxelizer`; the other two are chapter 04's own business.
 void add_parameters(ParameterTable& table, VoxelizerParams& params);
@@ -26,10 +27,11 @@ void for_each_column(const gl::Program& program, Voxelizer voxelizer, const GpuS
 
 class ConservativeVoxelizer {
 public:
-    ConservativeVoxelizer(gl::Shaders& shaders, const VoxelGrid& grid, const VoxelizerParams& params);
+    explicit ConservativeVoxelizer(gl::Shaders& shaders);
 
-    // Fill occupancy() and its levels from the scene's triangles if these have changed; says whether they have.
-    bool run(const GpuScene& scene, const VoxelGrid& grid);
+    // Fill occupancy() and its levels from the scene's triangles if these, the grid or a parameter have changed; says
+    // whether they have. Throws std::runtime_error for parameters that do not go together.
+    bool run(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params);
     void forget() { made_from_.forget(); }  // the next run fills them whatever has changed, for measuring
     Revision revision() const { return revision_; }
 
@@ -41,14 +43,17 @@ public:
     const gl::Texture& occupancy() const { return occupancy_; }
     const gl::Buffer& statistics_buffer() const { return statistics_; }  // one shared::VoxelStatistics
     const gl::Framebuffer& column_plane() const { return column_plane_; }
-    Voxelizer voxelizer() const { return voxelizer_; }
+    Voxelizer voxelizer() const { return voxelizer_; }  // of the last run
     std::vector<gl::Resource> resources() const;
 
 private:
-    MadeFrom<Revision> made_from_;
+    void allocate(const VoxelGrid& grid, const VoxelizerParams& params);
+    const gl::Program& mark_program(const VoxelizerParams& params);
+    MadeFrom<Revision, Revision, VoxelizerParams> made_from_;  // geometry, grid
     Revision revision_ = 0;
-    Voxelizer voxelizer_;
-    gl::Program mark_, next_level_;
+    Voxelizer voxelizer_ = Voxelizer::raster;
+    gl::ProgramVariants raster_mark_, compute_mark_;
+    gl::Program next_level_;
     gl::Texture occupancy_, fragment_counts_;
     gl::Buffer statistics_;
     gl::Framebuffer column_plane_;  // no attachments: the fragments write the volume

@@ -33,22 +33,23 @@ try {
 
     const GpuScene scene(app.scene());
     app.show_meanwhile(first_light(app, scene, display_params));
-    const VoxelGrid grid(scene.bounds(), grid_params);
-    ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
+    VoxelGrid grid(scene.bounds(), grid_params);
+    ConservativeVoxelizer voxelizer(app.shaders());
     VoxelViewPass voxel_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
     app.each_frame([&] {
         // Triangles -> occupied voxels, at all levels.
-        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid); });
+        grid.fit(scene.bounds(), grid_params);
+        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid, voxelizer_params); });
 
         // Occupied voxels -> picture.
-        if (app.shows("fragments")) view_params.level = 0;
-        view_params.heat = app.shows("fragments") ? &voxelizer.fragment_counts() : nullptr;
+        VoxelViewParams shown = view_params;
+        if (app.shows("fragments")) shown = {0, shown.shaded, &voxelizer.fragment_counts()};
         const gl::Buffer camera("camera", std::vector{app.camera()});
         const gl::Texture* linear = nullptr;
         app.pass("voxel view",
-                 [&] { linear = &voxel_view.run(grid, voxelizer.occupancy(), view_params, camera, app.size()); });
+                 [&] { linear = &voxel_view.run(grid, voxelizer.occupancy(), shown, camera, app.size()); });
         const gl::Texture& display = tone_map.run(*linear, app.view().encoding, display_params);
         app.show(*linear, display);
     });

@@ -35,9 +35,12 @@ shared::GridData make_grid(const Bounds& bounds, const VoxelGridParams& params)
     return grid;
 }
 
-VoxelGrid::VoxelGrid(const Bounds& bounds, const VoxelGridParams& params)
-    : data_(make_grid(bounds, params)), buffer_("voxel grid", sizeof data_, &data_)
+void VoxelGrid::fit(const Bounds& bounds, const VoxelGridParams& params)
 {
+    if (!made_from_.differs(bounds.min, bounds.max, params.voxels)) return;
+    ++revision_;
+    data_ = make_grid(bounds, params);
+    buffer_ = gl::Buffer("voxel grid", sizeof data_, &data_);
 }
 
 }  // namespace conebook

@@ -5,6 +5,7 @@
 #include "common/bindings.glsl"
 #include "common/voxel_structs.glsl"
 #include "gl/handles.hpp"
+#include "gl/made_from.hpp"
 #include "scene/scene.hpp"
 
 namespace conebook {
@@ -22,7 +23,10 @@ shared::GridData make_grid(const Bounds& bounds, const VoxelGridParams& params);
 // The grid as passes bind it: kGridBlock (shaders/common/voxel_grid.glsl).
 class VoxelGrid {
 public:
-    VoxelGrid(const Bounds& bounds, const VoxelGridParams& params);
+    VoxelGrid(const Bounds& bounds, const VoxelGridParams& params) { fit(bounds, params); }
+    // Another grid, if bounds or parameters are others than before.
+    void fit(const Bounds& bounds, const VoxelGridParams& params);
+    Revision revision() const { return revision_; }
     const shared::GridData& data() const { return data_; }
     glm::ivec3 size() const { return glm::ivec3(data_.size); }
     int levels() const { return data_.size.w; }
@@ -30,6 +34,8 @@ public:
     void bind() const { buffer_.bind(GL_UNIFORM_BUFFER, shared::kGridBlock); }
 
 private:
+    MadeFrom<glm::vec3, glm::vec3, int> made_from_;  // bounds, voxels
+    Revision revision_ = 0;
     shared::GridData data_;
     gl::Buffer buffer_;
 };

@@ -11,13 +11,13 @@ enum class Averaging : int { sums = 0, compare_and_swap = 1, racing_store = 2 };
 // Into one RGBA8 texel a voxel; both sides of a sheet share it. Every fragment weighs the same.
 class NaiveAverage {
 public:
+    explicit NaiveAverage(gl::Shaders& shaders);
     // `averaging`: compare_and_swap or racing_store.
-    NaiveAverage(gl::Shaders& shaders, const GpuScene& scene, const VoxelGrid& grid, Averaging averaging);
-    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer, Averaging averaging);
     const gl::Texture& color() const { return color_; }  // r32ui holding RGBA8, A the number of fragments
 
 private:
-    gl::Program program_;
+    gl::ProgramVariants program_;
     gl::Texture color_;
 };
 

@@ -38,15 +38,20 @@ std::vector<Need> voxel_material_needs(const GpuScene& scene)
             {"emission in voxels", emission, emission ? "materials shine" : "no material shines: no sums for it"}};
 }
 
-VoxelFaces::VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
+VoxelFaces::VoxelFaces(gl::Shaders& shaders, const ConservativeVoxelizer& voxelizer)
     : shaders_(&shaders),
       count_blocks_(shaders.load({"05_atomic_averaging/count_blocks.comp"})),
       scan_blocks_(shaders.load({"05_atomic_averaging/scan_blocks.comp"})),
       write_list_(shaders.load({"05_atomic_averaging/write_list.comp"})),
       resolve_(shaders.load({"05_atomic_averaging/resolve.comp"})),
-      face_index_(gl::texture_3d("face index", GL_R32UI, grid.size())),
       statistics_(&voxelizer.statistics_buffer())
 {
+}
+
+void VoxelFaces::allocate(const VoxelGrid& grid)
+{
+    if (face_index_ && face_index_.size() == grid.size()) return;
+    face_index_ = gl::texture_3d("face index", GL_R32UI, grid.size());
     const glm::ivec3 blocks = blocks_of(grid);
     block_counts_ = gl::Buffer("block counts", std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z) *
                                                    4 * sizeof(GLuint));
@@ -54,7 +59,7 @@ VoxelFaces::VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const Conser
 
 const gl::Program& VoxelFaces::accumulate_program(const GpuScene& scene, Voxelizer voxelizer)
 {
-    gl::Program& program = accumulate_[{scene.has_textures(), scene.has_emission()}];
+    gl::Program& program = accumulate_[{voxelizer, scene.has_textures(), scene.has_emission()}];
     if (program.id() != 0) return program;
     gl::Defines defines = column_defines(scene);
     defines["EMISSION"] = scene.has_emission() ? "1" : "0";
@@ -107,6 +112,7 @@ bool VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const Conserv
 {
     if (!made_from_.differs(voxelizer.revision())) return false;
     ++revision_;
+    allocate(grid);
     make_lists(grid, voxelizer);
 
     // Add up the fragments of every face.

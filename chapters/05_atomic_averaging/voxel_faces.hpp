@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 
 #include "04_conservative_voxelization/conservative_voxelizer.hpp"
 #include "app/statistics.hpp"
@@ -19,11 +20,11 @@ std::vector<Need> voxel_material_needs(const GpuScene& scene);
 class VoxelFaces {
 public:
     // `shaders` and `voxelizer` must outlive it.
-    VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    VoxelFaces(gl::Shaders& shaders, const ConservativeVoxelizer& voxelizer);
 
     // Make the lists from voxelizer.occupancy(), add up all fragments, divide. Reads two counters back to the CPU to
     // size the buffers; throws std::runtime_error when the scene has more faces than an index holds (2^26).
-    // Does nothing while the voxelizer has not run again; says whether it did.
+    // Does nothing while the voxelizer has not run again; says whether it did. `voxelizer`: the one of the constructor.
     bool run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
 
     // Changes whenever the lists or the means do.
@@ -45,11 +46,13 @@ public:
     void bind() const;
 
 private:
+    void allocate(const VoxelGrid& grid);
     void make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
     const gl::Program& accumulate_program(const GpuScene& scene, Voxelizer voxelizer);
     gl::Shaders* shaders_;  // of the caller, for the programs below
     gl::Program count_blocks_, scan_blocks_, write_list_, resolve_;
-    std::map<std::pair<bool, bool>, gl::Program> accumulate_;  // (textures, emission): no more than the scene needs
+    // (voxelizer, textures, emission): no more than the scene needs
+    std::map<std::tuple<Voxelizer, bool, bool>, gl::Program> accumulate_;
     gl::Texture face_index_;
     gl::Buffer block_counts_, voxel_list_, face_list_, sums_, faces_, face_groups_, voxel_groups_;
     const gl::Buffer* statistics_;  // of the voxelizer

@@ -35,10 +35,10 @@ try {
 
     const GpuScene scene(app.scene());
     app.show_meanwhile(first_light(app, scene, display_params));
-    const VoxelGrid grid(scene.bounds(), grid_params);
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
-    ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
-    VoxelFaces faces(app.shaders(), grid, voxelizer);
+    VoxelGrid grid(scene.bounds(), grid_params);
+    ShadowMaps shadow_maps(app.shaders());
+    ConservativeVoxelizer voxelizer(app.shaders());
+    VoxelFaces faces(app.shaders(), voxelizer);
     VoxelShading shading(app.shaders());
     FaceViewPass face_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
@@ -47,10 +47,11 @@ try {
         // snippet: frame
         // What the lights see, unless rays through the voxels are to tell.
         if (shading_params.voxel_shadows == int(VoxelShadows::map))
-            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // Triangles -> occupied voxels -> list of faces with their mean material.
-        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid); });
+        grid.fit(scene.bounds(), grid_params);
+        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid, voxelizer_params); });
         app.pass("average", Scope::scene, [&] { return faces.run(scene, grid, voxelizer); });
 
         // Material and lights -> radiance of every face.

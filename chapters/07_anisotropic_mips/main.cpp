@@ -31,7 +31,7 @@ try {
 
     const GpuScene scene(app.scene());
     app.show_meanwhile(first_light(app, scene, display_params));
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    ShadowMaps shadow_maps(app.shaders());
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     PyramidViewPass pyramid_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
@@ -40,7 +40,7 @@ try {
         // snippet: frame
         // What the lights see, for the voxels.
         if (voxel_params.shading.voxel_shadows == int(VoxelShadows::map))
-            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
         voxels.shade(app, scene, shadow_maps);

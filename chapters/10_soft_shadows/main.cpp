@@ -32,9 +32,7 @@ try {
 
     const GpuScene scene(app.scene());
     app.show_meanwhile(first_light(app, scene, display_params));
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_map_params);
-    const bool asks_maps =
-        asks_shadow_maps(shadow_params) || voxel_params.shading.voxel_shadows == int(VoxelShadows::map);
+    ShadowMaps shadow_maps(app.shaders());
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     GBuffer g_buffer(app.shaders(), app.size());
     SoftShadowLighting lighting(app.shaders());
@@ -43,7 +41,8 @@ try {
 
     app.each_frame([&] {
         // What the lights see, if pixels or voxels ask.
-        if (asks_maps) app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+        if (asks_shadow_maps(shadow_params) || voxel_params.shading.voxel_shadows == int(VoxelShadows::map))
+            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_map_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
         voxels.shade(app, scene, shadow_maps);

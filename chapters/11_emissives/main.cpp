@@ -37,9 +37,9 @@ try {
 
     const GpuScene scene(app.scene());
     app.show_meanwhile(first_light(app, scene, display_params));
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    ShadowMaps shadow_maps(app.shaders());
     LitVoxels voxels(app.shaders(), scene, voxel_params);
-    Emitters emitters(app.shaders(), app.scene(), voxels.grid(), emitter_params);
+    Emitters emitters(app.shaders(), app.scene());
     WalkVolume walk_volume(app.shaders());
     const ConeVolumes volumes{voxels.grid(), voxels.pyramid(), walk_volume};
     GBuffer g_buffer(app.shaders(), app.size());
@@ -47,25 +47,27 @@ try {
     ConeDirections directions;
     DiffuseCones diffuse_cones(app.shaders());
     EmitterLight emitter_light(app.shaders());
-    SpecularCones specular_cones(app.shaders(), emitters.specular_folder());
+    SpecularCones specular_cones(app.shaders());
     const bool reflective = has_specular_surfaces(app.scene());
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
     app.each_frame([&] {
         // What the lights see.
-        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // snippet: emission_apart
-        // Triangles -> voxels -> what they reflect -> six pyramids. On request nothing that they reflect.
+        // Triangles -> voxels -> what they emit -> six pyramids, and the parts of it to aim at.
         voxels.shade(app, scene, shadow_maps);
+        app.pass("emitters", Scope::scene, [&] {
+            return emitters.run(voxels.grid(), voxels.faces(), voxels.shading(), emitter_params);
+        });
+
+        // What they reflect -> six more. On request nothing that they reflect.
         voxels.filter(app, !app.shows("from_emitters") ? emitters.part_of_voxels()
                            : emitters.are_apart()      ? LightPart::none
                                                        : LightPart::emitted);
         app.pass("walk volume", Scope::scene, [&] { return walk_volume.run(voxels.grid(), voxels.faces()); });
-
-        // What they emit -> six more, and the parts of it to aim at.
-        app.pass("emitters", Scope::scene, [&] { return emitters.run(voxels.grid(), voxels.faces(), voxels.shading()); });
         // end snippet
 
         // What the camera sees, and what of it the lamps reach.
@@ -90,7 +92,8 @@ try {
         if (reflective)
             app.pass("specular cones", [&] {
                 emitters.bind_emission();
-                specular = &specular_cones.run(g_buffer, volumes, cone_params, specular_params);
+                specular = &specular_cones.run(g_buffer, volumes, cone_params, specular_params, 0,
+                                               emitters.specular_folder());
             });
 
         // Sum.

@@ -45,6 +45,8 @@ public:
 
     // Draws frame after frame, until the last one is done or the window is closed.
     void each_frame(const std::function<void()>& draw);
+    // The same by hand, without a window: starts a frame; false when the last one is done.
+    bool next_frame();
     int frame() const { return frame_; }       // 0, 1, 2, ...
     glm::ivec2 size() const { return size_; }  // of the picture in pixels; in a window another one from frame to frame
     shared::CameraData camera() const;         // this frame's
@@ -89,7 +91,6 @@ public:
 private:
     struct Window;
     struct GivenUp {};  // thrown through a frame that nobody wants any more
-    bool next_frame();
     void time_pass(const std::string& name, Scope scope, const std::function<bool()>& work);
     void write_picture(const std::filesystem::path& file, const gl::Texture& linear, const gl::Texture& display) const;
 

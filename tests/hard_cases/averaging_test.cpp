@@ -374,8 +374,8 @@ TEST(Averaging, RunningMeansOfEightBitsStick)
         // The running mean gives every fragment the same weight: its own oracle.
         double unweighted = 0.0;
         for (const auto& t : triangles) unweighted += double(brightness(t)) / 3.0 / count;
-        NaiveAverage naive(test_gl().shaders, pipeline.scene(), pipeline.grid(), Averaging::compare_and_swap);
-        naive.run(pipeline.scene(), pipeline.grid(), pipeline.voxelizer());
+        NaiveAverage naive(test_gl().shaders);
+        naive.run(pipeline.scene(), pipeline.grid(), pipeline.voxelizer(), Averaging::compare_and_swap);
         double error = 0.0;
         for (const GLuint texel : gl::read_uints(naive.color()))
             if (texel != 0u) error = std::abs(double(texel & 255u) / 255.0 - unweighted);
