@@ -112,6 +112,7 @@ struct ShownPicture {
     double time_s = 0.0;
     std::string what, size, window_size, view;
     int sample = 0, changes = 0;
+    std::string parameters;  // NAME=VALUE of those that are not the default
     bool is_whole() const { return what == "frame" && size == window_size; }
 };
 
@@ -148,6 +149,7 @@ public:
             std::istringstream words(line);
             ShownPicture p;
             words >> p.time_s >> p.what >> p.size >> p.window_size >> p.view >> p.sample >> p.changes;
+            std::getline(words, p.parameters);
             pictures.push_back(p);
         }
         return pictures;

@@ -62,6 +62,10 @@ void App::each_frame(const std::function<void()>& draw)
         } catch (const GivenUp&) {
             --frame_;
             seen_.forget();  // the mean of frames lacks this one
+        } catch (const std::exception& fault) {
+            if (!undo_values(fault)) throw;
+            --frame_;
+            seen_.forget();
         }
     }
 }

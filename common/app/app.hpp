@@ -18,6 +18,7 @@
 
 #include "app/context.hpp"
 #include "app/options.hpp"
+#include "app/panel.hpp"
 #include "app/pass_timer.hpp"
 #include "app/statistics.hpp"
 #include "gl/debug_log.hpp"
@@ -42,6 +43,9 @@ public:
     // In a window: what there is to see, and follows the reader, until the first frame is done. `draw` makes a picture
     // for camera(), size() and view() and must be fast.
     void show_meanwhile(std::function<const gl::Texture&()> draw);
+
+    // Adds a part of a chapter's own to the window's panel. Without a window, nothing.
+    void add_panel_section(PanelSection section);
 
     // Draws frame after frame, until the last one is done or the window is closed.
     void each_frame(const std::function<void()>& draw);
@@ -101,6 +105,9 @@ private:
     bool is_outdated() const;
     void look_after_window();
     void time_pass_in_window(const std::string& name, Scope scope, const std::function<bool()>& work);
+    bool undo_values(const std::exception& fault);
+    void build_panel();
+    void refresh_panel();
     void show_meanwhile_again();
     void show_in_window(const gl::Texture& display);
     void save_screenshot();

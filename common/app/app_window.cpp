@@ -35,11 +35,52 @@ void App::start_window()
     window_->size = window_->input.framebuffer_size();
     if (!options_.trace_frames.empty()) window_->trace.open(options_.trace_frames);
     if (software && window_->follows) shaders_.set_between_slices([this] { look_after_window(); });
+    if (window_->follows) window_->input.set_panel(&window_->panel.emplace(context_.glfw_window()));
     set_title("preparing");
+}
+
+void App::add_panel_section(PanelSection section)
+{
+    if (window_ != nullptr) window_->sections.push_back(std::move(section));
+}
+
+// Builds the panel, and takes what the reader did in it for a request.
+void App::build_panel()
+{
+    Window& w = *window_;
+    if (!w.input.shows_panel()) return;
+    // Once for what has happened, and once more for what follows from it: a click is a press and a release.
+    for (int pass = 0; pass < 2; ++pass) {
+        const WindowRequests& requests = w.input.requests();
+        w.input.add(w.panel->build({info_.name, w.doing_text, w.fault, info_.views,
+                                    view_after(requests, view_index_, info_.views.size()), info_.parameters,
+                                    requests.values.value_or(info_.parameters.values()), statistics_, w.sections}));
+    }
+}
+
+void App::refresh_panel()
+{
+    if (!window_->input.take_panel_events()) return;
+    build_panel();
+    window_->input.present_again();
+}
+
+// After a fault in a frame: back to the parameters of the last picture, if there are any and they are others.
+bool App::undo_values(const std::exception& fault)
+{
+    if (window_ == nullptr || dynamic_cast<const ExitRequest*>(&fault) != nullptr) return false;
+    Window& w = *window_;
+    if (w.drawn_values.empty() || w.drawn_values == info_.parameters.values()) return false;
+    info_.parameters.set_values(w.drawn_values);
+    w.fault = fault.what();
+    std::cerr << info_.name << ": " << w.fault << "\n";
+    w.resolution.change();
+    return true;
 }
 
 void App::set_title(const std::string& doing)
 {
+    window_->doing_text = doing;
     std::string title = info_.name;
     title.append(": ").append(view().name);
     if (!doing.empty()) title.append(", ").append(doing);
@@ -51,7 +92,8 @@ void App::set_title(const std::string& doing)
 bool App::is_outdated() const
 {
     const WindowRequests& requests = window_->input.requests();
-    return requests.close || requests.reload_shaders || requests.world_from_camera ||
+    return requests.close || requests.reload_shaders || requests.world_from_camera || requests.section ||
+           (requests.values && *requests.values != info_.parameters.values()) ||
            view_after(requests, view_index_, info_.views.size()) != view_index_ ||
            window_->input.framebuffer_size() != window_->size;
 }
@@ -62,6 +104,11 @@ bool App::take_requests()
     const bool changed = is_outdated();
     const WindowRequests requests = window_->input.take();
     view_index_ = view_after(requests, view_index_, info_.views.size());
+    if (requests.values && *requests.values != info_.parameters.values()) {
+        info_.parameters.set_values(*requests.values);
+        window_->values_changed = true;
+        window_->fault.clear();
+    }
     if (requests.world_from_camera) camera_.world_from_camera = *requests.world_from_camera;
     window_->size = window_->input.framebuffer_size();
     window_->closing = window_->closing || requests.close;
@@ -83,21 +130,23 @@ bool App::next_window_frame()
     if (w.last) return false;
     w.doing = Window::Doing::preparing;
     w.input.poll();
+    refresh_panel();
     // Nothing to refine: sleep until something happens.
-    while (w.follows && w.refinement.done() && !is_outdated()) {
+    while (w.follows && w.resolution.done() && !is_outdated()) {
         const WindowRequests requests = w.input.take();
         if (requests.screenshot) save_screenshot();
-        if (requests.show_again) w.input.present(*display_);
+        if (requests.show_again) w.input.present_again();
         constexpr double kLongest_s = 10.0;
         w.input.wait(kLongest_s);
+        refresh_panel();
     }
     const bool changed = take_requests();
     if (w.screenshot && w.whole && (!changed || w.closing)) save_screenshot();
     if (w.closing && (w.whole || !w.follows || options_.output.empty())) return false;
     w.last = w.closing;
-    if (changed) w.refinement.change();
+    if (changed) w.resolution.change();
     if (changed && w.meanwhile) show_meanwhile_again();
-    size_ = divided(w.size, w.follows && !w.last ? w.refinement.divisor() : 1);
+    size_ = divided(w.size, w.follows && !w.last ? w.resolution.divisor() : 1);
     w.doing = Window::Doing::drawing;
     w.may_give_up = true;
     w.worked = w.whole = false;
@@ -112,6 +161,7 @@ void App::look_after_window()
     Window& w = *window_;
     if (w.doing == Window::Doing::showing_meanwhile) return;
     w.input.poll();
+    refresh_panel();
     if (w.doing == Window::Doing::preparing) {
         if (w.meanwhile && is_outdated()) show_meanwhile_again();
         if (w.closing && options_.output.empty()) throw ExitRequest(EXIT_SUCCESS);
@@ -119,7 +169,7 @@ void App::look_after_window()
     }
     if (w.input.requests().screenshot) set_title("screenshot as soon as it is whole");
     if (w.last || !w.may_give_up || !is_outdated()) return;
-    if (w.input.requests().close || !w.refinement.answers()) throw GivenUp();
+    if (w.input.requests().close || !w.resolution.answers()) throw GivenUp();
 }
 
 void App::time_pass_in_window(const std::string& name, Scope scope, const std::function<bool()>& work)
@@ -130,7 +180,7 @@ void App::time_pass_in_window(const std::string& name, Scope scope, const std::f
         return;
     }
     const bool for_camera = scope == Scope::camera;
-    if (w.meanwhile) set_title(name);
+    if (w.meanwhile || (w.values_changed && !for_camera)) set_title(name);
     look_after_window();
     // What the passes before have made stays, so the first frame can begin again with the reader's newest wish.
     if (w.meanwhile && !for_camera && w.worked && !w.last && is_outdated()) throw GivenUp();
@@ -163,31 +213,36 @@ void App::show_meanwhile_again()
     take_requests();
     w.doing = Window::Doing::showing_meanwhile;
     size_ = divided(w.size, w.meanwhile_divisor);
-    w.input.present(w.meanwhile());
+    const gl::Texture& display = w.meanwhile();
     w.doing = Window::Doing::preparing;
-    trace("meanwhile");
     set_title("preparing");
+    build_panel();
+    w.input.present(display);
+    trace("meanwhile");
 }
 
 void App::show_in_window(const gl::Texture& display)
 {
     Window& w = *window_;
-    w.input.present(display);
-    trace("frame");
     w.whole = size_ == w.size;
-    const int divisor = w.refinement.divisor();
+    const int divisor = w.resolution.divisor();
     const bool first = w.meanwhile != nullptr;
     w.meanwhile = {};
-    w.refinement.shown(now_s() - w.frame_start_s - w.not_for_camera_s,
+    w.drawn_values = info_.parameters.values();
+    w.values_changed = false;
+    w.resolution.shown(now_s() - w.frame_start_s - w.not_for_camera_s,
                        expects_more_ || (accumulates_ && sample_ + 1 < kMostSamples));
     // Samples are not counted faster than one can read.
     constexpr double kLegible_s = 0.25;
-    if (w.refinement.done())
+    if (w.resolution.done())
         set_title("");
     else if (divisor > 1)
         set_title("1/" + std::to_string(divisor) + " resolution");
     else if (first || now_s() - w.title_s > kLegible_s)
         set_title(accumulates_ ? "refining " + std::to_string(sample_ + 1) + "/" + std::to_string(kMostSamples) : "");
+    build_panel();
+    w.input.present(display);
+    trace("frame");
 }
 
 void App::save_screenshot()
@@ -204,7 +259,8 @@ void App::trace(const char* what)
     Window& w = *window_;
     if (!w.trace.is_open()) return;
     w.trace << std::fixed << std::setprecision(6) << now_s() << " " << what << " " << size_.x << "x" << size_.y << " "
-            << w.size.x << "x" << w.size.y << " " << view().name << " " << sample_ << " " << w.changes << std::endl;
+            << w.size.x << "x" << w.size.y << " " << view().name << " " << sample_ << " " << w.changes
+            << info_.parameters.changed() << std::endl;
 }
 
 }  // namespace conebook

@@ -2,22 +2,30 @@
 #pragma once
 
 #include <fstream>
+#include <optional>
 
 #include "app/app.hpp"
-#include "app/refinement.hpp"
+#include "app/panel.hpp"
 #include "app/window.hpp"
+#include "app/window_resolution.hpp"
 
 namespace conebook {
 
 struct App::Window {
     enum class Doing { preparing, showing_meanwhile, drawing };
     Window(GLFWwindow* window, const Camera& camera, const Bounds& bounds, int first_divisor)
-        : input(window, camera, bounds), refinement(first_divisor)
+        : input(window, camera, bounds), resolution(first_divisor)
     {
     }
 
     WindowInput input;
-    Refinement refinement;
+    std::optional<Panel> panel;  // with `follows` alone
+    std::vector<PanelSection> sections;
+    std::string doing_text;            // as the title says it
+    std::string fault;                 // of the last change of parameters
+    std::vector<double> drawn_values;  // of the parameters, of the last picture that was finished
+    bool values_changed = false;       // since then
+    WindowResolution resolution;
     bool follows = true;        // frames follow the reader; not with --frames, where each is whole and is finished
     int meanwhile_divisor = 1;  // of what show_meanwhile draws
     std::function<const gl::Texture&()> meanwhile;  // until the first frame is done

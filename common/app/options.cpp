@@ -77,7 +77,8 @@ Options parse_options(int argc, char** argv, ProgramInfo& info)
     cli.add_flag("--print-stats", options.print_stats, "print times and memory as a table");
     cli.add_option("--trace-frames", trace_frames,
                    "write a line for each picture that a window shows: when (s, monotonic clock), meanwhile or frame, "
-                   "its size, the window's, view, sample, changes by the reader so far");
+                   "its size, the window's, view, sample, changes by the reader so far, "
+                   "parameters that are not the default");
     cli.add_option("--set", assignments, "NAME=VALUE ..., parameters; --list-params names them")
         ->type_name("NAME=VALUE");
     cli.add_flag("--list-views", list_views, "name the views and end");

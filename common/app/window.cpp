@@ -48,14 +48,27 @@ WindowInput::WindowInput(GLFWwindow* window, const Camera& start, const Bounds& 
     glfwSetWindowUserPointer(window_, this);
     glfwSetKeyCallback(window_, on_key);
     glfwSetCursorPosCallback(window_, on_cursor);
+    glfwSetMouseButtonCallback(window_, on_button);
+    glfwSetCharCallback(window_, on_character);
     glfwSetScrollCallback(window_, on_scroll);
     glfwSetWindowRefreshCallback(window_, on_refresh);
 }
 
+void WindowInput::note_panel_event()
+{
+    if (shows_panel() && panel_->concerns(last_cursor_)) panel_events_ = true;
+}
+
 void WindowInput::on_key(GLFWwindow* window, int key, int, int action, int)
 {
-    if (action != GLFW_PRESS) return;
     WindowInput& input = input_of(window);
+    const bool for_panel = input.panel_has_keyboard();
+    if (for_panel) input.note_panel_event();
+    if (action != GLFW_PRESS || for_panel) return;
+    if (key == GLFW_KEY_F1) {
+        input.panel_is_shown_ = !input.panel_is_shown_;
+        input.panel_events_ = true;
+    }
     WindowRequests& requests = input.requests_;
     for (std::size_t i = 0; i < kMovingKeyCount; ++i)
         if (key == kMovingKeys[i].key) input.tapped_[i] = true;
@@ -73,20 +86,30 @@ void WindowInput::on_cursor(GLFWwindow* window, double x, double y)
 {
     WindowInput& input = input_of(window);
     const glm::dvec2 cursor(x, y);
-    if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS) input.turned_ += cursor - input.last_cursor_;
+    const bool turns = glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS && !input.panel_has_mouse();
+    if (turns) input.turned_ += cursor - input.last_cursor_;
     input.last_cursor_ = cursor;
+    if (!turns) input.note_panel_event();
 }
+
+void WindowInput::on_button(GLFWwindow* window, int, int, int) { input_of(window).note_panel_event(); }
+
+void WindowInput::on_character(GLFWwindow* window, unsigned int) { input_of(window).note_panel_event(); }
 
 void WindowInput::on_scroll(GLFWwindow* window, double, double y)
 {
-    input_of(window).speed_m_per_s_ *= std::pow(1.2f, float(y));
+    WindowInput& input = input_of(window);
+    if (input.panel_has_mouse())
+        input.note_panel_event();
+    else
+        input.speed_m_per_s_ *= std::pow(1.2f, float(y));
 }
 
 void WindowInput::on_refresh(GLFWwindow* window) { input_of(window).requests_.show_again = true; }
 
 void WindowInput::move()
 {
-    const auto is_down = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS; };
+    const auto is_down = [&](int key) { return glfwGetKey(window_, key) == GLFW_PRESS && !panel_has_keyboard(); };
     const double now_s = glfwGetTime();
     const double since_last_s = now_s - std::exchange(last_time_s_, now_s);
     // The window may have slept, and a key may be up again: how long it was down is not known, so it counts as this.
@@ -136,13 +159,43 @@ glm::ivec2 WindowInput::framebuffer_size() const
     return glm::max(size, glm::ivec2(1));
 }
 
-void WindowInput::present(const gl::Texture& display) const
+void WindowInput::present(const gl::Texture& display)
 {
-    const glm::ivec2 from = display.size_2d(), to = framebuffer_size();
-    glNamedFramebufferTexture(read_framebuffer_.id(), GL_COLOR_ATTACHMENT0, display.id(), 0);
+    const glm::ivec2 size = display.size_2d();
+    if (!shown_ || shown_.size_2d() != size) shown_ = gl::texture_2d("shown", GL_RGBA8, size);
+    glCopyImageSubData(display.id(), GL_TEXTURE_2D, 0, 0, 0, 0, shown_.id(), GL_TEXTURE_2D, 0, 0, 0, 0, size.x, size.y,
+                       1);
+    present_again();
+}
+
+void WindowInput::present_again()
+{
+    if (!shown_) return;
+    GLint framebuffer = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+    const bool rows_only = glIsEnabled(GL_SCISSOR_TEST) == GL_TRUE;  // between the slices of a draw
+    glDisable(GL_SCISSOR_TEST);
+    const glm::ivec2 from = shown_.size_2d(), to = framebuffer_size();
+    glNamedFramebufferTexture(read_framebuffer_.id(), GL_COLOR_ATTACHMENT0, shown_.id(), 0);
     glBlitNamedFramebuffer(read_framebuffer_.id(), 0, 0, 0, from.x, from.y, 0, 0, to.x, to.y, GL_COLOR_BUFFER_BIT,
                            from == to ? GL_NEAREST : GL_LINEAR);
+    if (shows_panel()) {
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+        panel_->draw();
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(framebuffer));
+    }
+    if (rows_only) glEnable(GL_SCISSOR_TEST);
     glfwSwapBuffers(window_);
+}
+
+void WindowInput::add(const PanelChanges& changes)
+{
+    if (changes.view) {
+        requests_.view = changes.view;
+        requests_.views_on = 0;
+    }
+    if (changes.values) requests_.values = changes.values;
+    requests_.section = requests_.section || changes.section;
 }
 
 void WindowInput::set_title(const std::string& title)

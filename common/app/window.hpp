@@ -1,10 +1,13 @@
-// The window's side of the frame loop: free camera, keys, showing the picture. Tools such as a panel belong here.
+// The window's side of the frame loop: free camera, keys, showing the picture and the panel over it.
 #pragma once
 
 #include <bitset>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "app/panel.hpp"
 #include "gl/handles.hpp"
 #include "scene/scene.hpp"
 
@@ -22,6 +25,8 @@ struct WindowRequests {
     std::optional<std::size_t> view;
     int views_on = 0;
     std::optional<glm::mat4> world_from_camera;  // where the camera has moved
+    std::optional<std::vector<double>> values;   // of all parameters, by the panel
+    bool section = false;                        // a section of the panel has changed something
 };
 
 // Free camera: WASD and QE move, the right mouse button turns, Shift is faster, the wheel changes the speed.
@@ -39,23 +44,41 @@ public:
     const WindowRequests& requests() const { return requests_; }
     WindowRequests take();
 
+    // While the window has a panel. F1 shows and hides it.
+    void set_panel(Panel* panel) { panel_ = panel; }
+    bool shows_panel() const { return panel_ != nullptr && panel_is_shown_; }
+    // Whether something has happened since the last call that the panel answers.
+    bool take_panel_events() { return std::exchange(panel_events_, false); }
+    // What the reader did in the panel.
+    void add(const PanelChanges& changes);
+
     glm::ivec2 framebuffer_size() const;
-    // Over the whole window, whatever size `display` has.
-    void present(const gl::Texture& display) const;
+    // Over the whole window, whatever size `display` has; and over it the panel as it was built.
+    void present(const gl::Texture& display);
+    // The last picture once more; nothing before there was one. Leaves OpenGL's state as it was.
+    void present_again();
     void set_title(const std::string& title);
 
     static constexpr std::size_t kMovingKeyCount = 6;
 
 private:
     void move();
+    void note_panel_event();
+    bool panel_has_keyboard() const { return shows_panel() && panel_->has_keyboard(); }
+    bool panel_has_mouse() const { return shows_panel() && panel_->has_mouse(); }
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
     static void on_cursor(GLFWwindow* window, double x, double y);
+    static void on_button(GLFWwindow* window, int button, int action, int modifiers);
+    static void on_character(GLFWwindow* window, unsigned int character);
     static void on_scroll(GLFWwindow* window, double x, double y);
     static void on_refresh(GLFWwindow* window);
 
     GLFWwindow* window_;
     WindowRequests requests_;
     std::string title_;
+    Panel* panel_ = nullptr;
+    bool panel_is_shown_ = true, panel_events_ = false;
+    gl::Texture shown_;  // the last picture
     gl::Handle<gl::delete_framebuffer> read_framebuffer_;
     glm::vec3 position_{0.0f};
     float yaw_rad_ = 0.0f, pitch_rad_ = 0.0f;

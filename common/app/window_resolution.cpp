@@ -1,17 +1,17 @@
-#include "app/refinement.hpp"
+#include "app/window_resolution.hpp"
 
 #include <algorithm>
 
 namespace conebook {
 
-void Refinement::change()
+void WindowResolution::change()
 {
     divisor_ = answer_divisor_;
     answers_ = true;
     done_ = false;
 }
 
-void Refinement::shown(double seconds, bool more)
+void WindowResolution::shown(double seconds, bool more)
 {
     // Time goes with the pixels, but for a part that does not. So a coarse picture says too much of finer ones, which is
     // safe, and a fine one too little of coarser ones, which the next answer corrects.

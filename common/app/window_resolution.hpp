@@ -5,10 +5,10 @@ namespace conebook {
 
 // A picture has 1 / divisor of the pixels of the window along each side. What was measured of the last says how coarse
 // an answer must be. Knows neither a window nor OpenGL.
-class Refinement {
+class WindowResolution {
 public:
     // `first_divisor`: a guess for the first picture, when nothing has been measured.
-    explicit Refinement(int first_divisor) : divisor_(first_divisor), answer_divisor_(first_divisor) {}
+    explicit WindowResolution(int first_divisor) : divisor_(first_divisor), answer_divisor_(first_divisor) {}
 
     // Of the next picture: 1, 2, 4 or 8.
     int divisor() const { return divisor_; }
