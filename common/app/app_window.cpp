@@ -49,8 +49,9 @@ void App::build_panel()
 {
     Window& w = *window_;
     if (!w.input.shows_panel()) return;
-    // Once for what has happened, and once more for what follows from it: a click is a press and a release.
-    for (int pass = 0; pass < 2; ++pass) {
+    // Once for what has happened, and again for what follows from it: a click is a press and a release, which may unfold
+    // the panel, which then has another size.
+    for (int pass = 0; pass < 3; ++pass) {
         const WindowRequests& requests = w.input.requests();
         w.input.add(w.panel->build({info_.name, w.doing_text, w.fault, info_.views,
                                     view_after(requests, view_index_, info_.views.size()), info_.parameters,

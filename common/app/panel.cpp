@@ -201,8 +201,11 @@ PanelChanges Panel::build(const PanelContents& contents)
     ImGui::SetNextWindowCollapsed(screen.x < 2.0f * wanted, ImGuiCond_Once);  // the picture is to be seen first
     PanelChanges changes;
     ImGui::Begin(contents.program.c_str());
-    ImGui::TextDisabled("%s", contents.doing.empty() ? "done" : contents.doing.c_str());
-    if (!contents.fault.empty()) ImGui::TextWrapped("Not possible: %s", contents.fault.c_str());
+    // In one line, so that nothing below moves.
+    if (contents.fault.empty())
+        ImGui::TextDisabled("%s", contents.doing.empty() ? "done" : contents.doing.c_str());
+    else
+        ImGui::Text("undone: %s", contents.fault.c_str());
     std::vector<std::string> names;
     for (const View& view : contents.views) names.push_back(view.name);
     ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x);
