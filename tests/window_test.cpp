@@ -265,7 +265,7 @@ TEST_P(Panel, EveryParameterActsInTheNextFrame)
 
 INSTANTIATE_TEST_SUITE_P(Chapters, Panel,
                          testing::Values(Chapter{"04_conservative_voxelization", "voxels=16"},
-                                         Chapter{"05_atomic_averaging", "voxels=16"}, kTwelfth),
+                                         Chapter{"05_atomic_averaging", "voxels=16"}),
                          [](const auto& info) { return "c" + info.param.name; });
 
 TEST(PanelViews, KeysAndMouseOfThePanelAreNotThePictures)
