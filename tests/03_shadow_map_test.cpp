@@ -193,15 +193,16 @@ TEST(ShadowMap, ManyLightsEachHaveTheirOwn)
     b.point_light({0, 2, 2}, {0, 0, 10});
     const Scene scene = b.build();
     const GpuScene gpu_scene(scene);
-    const ShadowMaps maps(test_gl().shaders, gpu_scene, map_params());
+    ShadowMaps maps(test_gl().shaders);
+    maps.draw(gpu_scene, map_params());
     EXPECT_EQ(maps.layers(), 0 + 1 + 1 + 6);
     // One colour a light: the picture of all of them is the sum of the pictures of one each.
     GBuffer g_buffer(test_gl().shaders, kPicture);
     const auto direct = [&](const Scene& s) {
         const GpuScene gpu(s);
         g_buffer.draw(gpu, camera_data(cameras({1, 1, 1})[0], kPicture, s.bounds));
-        ShadowMaps own(test_gl().shaders, gpu, map_params());
-        own.draw(gpu);
+        ShadowMaps own(test_gl().shaders);
+        own.draw(gpu, map_params());
         DirectLightingPass lighting(test_gl().shaders, Shadows::maps);
         own.bind(lighting.program());
         return read_picture(lighting.run(g_buffer, gpu, LightingOutput::direct));
@@ -224,7 +225,8 @@ TEST(ShadowMap, ManyLightsShareALimitedMemory)
     ShadowMapParams params;
     params.shadow_map_size = 2048;  // 360 maps of 16 MiB each would be 5.6 GiB
     const GpuScene gpu_scene(scene);
-    const ShadowMaps maps(test_gl().shaders, gpu_scene, params);
+    ShadowMaps maps(test_gl().shaders);
+    maps.draw(gpu_scene, params);
     EXPECT_EQ(maps.layers(), 360);
     EXPECT_EQ(maps.size(), 512);
     EXPECT_LE(maps.depth().bytes(), std::size_t(1) << 30);
@@ -244,7 +246,8 @@ TEST(ShadowMap, TheMapsOfManyLightsShareLayers)
     ShadowMapParams params = map_params();
     params.shadow_map_size = 128;
     const GpuScene gpu_scene(scene);
-    const ShadowMaps maps(test_gl().shaders, gpu_scene, params);
+    ShadowMaps maps(test_gl().shaders);
+    maps.draw(gpu_scene, params);
     EXPECT_EQ(maps.layers(), most_layers + 1);
     EXPECT_EQ(maps.depth().size(), glm::ivec3(256, 256, most_layers / 4 + 1));
     EXPECT_EQ(maps.layer(most_layers).place, glm::ivec4(0, 0, most_layers / 4, 128));

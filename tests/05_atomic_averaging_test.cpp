@@ -192,8 +192,8 @@ TEST(Means, NaiveOnesAreNearWhereFragmentsAreFew)
     SoupPipeline pipeline(builder.build(), unit_bounds(16), 16);
     pipeline.average();
     for (const Averaging averaging : {Averaging::compare_and_swap, Averaging::racing_store}) {
-        NaiveAverage naive(test_gl().shaders, pipeline.grid(), averaging);
-        naive.run(pipeline.scene(), pipeline.grid(), pipeline.voxelizer());
+        NaiveAverage naive(test_gl().shaders);
+        naive.run(pipeline.scene(), pipeline.grid(), pipeline.voxelizer(), averaging);
         EXPECT_LE(rms_error(naive, pipeline.voxel_faces()), 0.5 / 255.0);
         EXPECT_GT(rms_error(naive, pipeline.voxel_faces()), 0.0);  // 0.3 * 255 is no whole number
     }

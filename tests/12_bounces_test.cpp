@@ -27,18 +27,19 @@ public:
         : frames_(asset("cornell_box")),  // for its context and its frame
           scene_(source),
           params_(voxel_params(voxels)),
-          shadow_maps_(shaders(), scene_, {}),
+          shadow_maps_(shaders()),
           voxels_(shaders(), scene_, params_),
           walk_(shaders()),
-          emitters_(shaders(), source, voxels_.grid(), {}),
+          emitters_(shaders(), source),
           bounces_(shaders()),
           cones_(cones)
     {
         EXPECT_TRUE(frames_.app().next_frame());
-        shadow_maps_.draw(scene_);
+        shadow_maps_.draw(scene_, {});
         voxels_.shade(frames_.app(), scene_, shadow_maps_);
         walk_.run(voxels_.grid(), voxels_.faces());
-        emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading());
+        emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), {});
+        voxels_.filter_coverage(frames_.app());
         bounces_.link(voxels_, walk_, emitters_, cones, params);
         run(params);
         const std::size_t count = voxels_.faces().face_count();

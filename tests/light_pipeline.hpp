@@ -15,15 +15,15 @@ public:
     LightPipeline(const Scene& scene, const Camera& camera, glm::ivec2 size, int voxels)
         // The voxels hold what surfaces reflect, the emitters the rest.
         : lit_(scene, voxels),
-          emitters_(test_gl().shaders, scene, lit_.grid, {}),
+          emitters_(test_gl().shaders, scene),
           g_buffer_(test_gl().shaders, size),
           walk_(test_gl().shaders),
           diffuse_(test_gl().shaders),
           emitter_light_(test_gl().shaders)
     {
         walk_.run(lit_.grid, lit_.faces);
-        emitters_.run(lit_.grid, lit_.faces, lit_.shading);
-        lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), lit_.shading.revision(),
+        emitters_.run(lit_.grid, lit_.faces, lit_.shading, {});
+        lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), lit_.shading.revision(), {},
                          emitters_.part_of_voxels());
         look(camera);
     }
@@ -36,7 +36,8 @@ public:
     // Only what the faces emit by themselves stays in the pyramids.
     void keep_emission_alone()
     {
-        lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), lit_.shading.revision(), LightPart::none);
+        lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), lit_.shading.revision(), {},
+                          LightPart::none);
     }
 
     // Mean visible share of the lights, 0..1, in all channels; alpha 1 where there is a surface.

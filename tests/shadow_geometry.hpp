@@ -43,8 +43,8 @@ inline Shaded shade(const Scene& scene, const Camera& camera, const ShadowMapPar
     const GpuScene gpu_scene(scene);
     GBuffer g_buffer(shaders, kPicture);
     g_buffer.draw(gpu_scene, camera_data(camera, kPicture, scene.bounds));
-    ShadowMaps maps(shaders, gpu_scene, params);
-    maps.draw(gpu_scene);
+    ShadowMaps maps(shaders);
+    maps.draw(gpu_scene, params);
     DirectLightingPass with(shaders, Shadows::maps), without(shaders, Shadows::none);
     maps.bind(with.program());
     const ImageF shadowed = read_picture(with.run(g_buffer, gpu_scene, LightingOutput::direct));

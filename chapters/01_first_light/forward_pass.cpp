@@ -1,6 +1,17 @@
 #include "01_first_light/forward_pass.hpp"
 
+#include <iterator>
+
 namespace conebook {
+
+std::optional<ForwardOutput> forward_output(const std::string& view)
+{
+    // In the order of ForwardOutput.
+    constexpr const char* kViews[] = {"final", "direct", "emission", "base_color", "normal", "depth"};
+    for (std::size_t i = 0; i < std::size(kViews); ++i)
+        if (view == kViews[i]) return ForwardOutput(i);
+    return std::nullopt;
+}
 
 ForwardPass::ForwardPass(gl::Shaders& shaders)
     : program_(shaders.load({"01_first_light/scene.vert", "01_first_light/forward.frag"})),

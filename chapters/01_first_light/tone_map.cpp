@@ -33,7 +33,7 @@ const gl::Texture& ToneMapPass::run(const gl::Texture& linear, Encoding encoding
     program_.set("white", params.white);
     program_.set("srgb", params.srgb);
     program_.set("data_scale", data_scale);
-    gl::draw_pixels(program_, framebuffer_, no_vertices_, display_.size_2d());
+    gl::draw_pixels(program_, framebuffer_, no_vertices_, linear.size_2d());
     return display_;
 }
 

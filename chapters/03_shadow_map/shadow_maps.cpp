@@ -165,15 +165,17 @@ std::vector<glm::mat4> shadow_matrices(const Light& light, const Bounds& bounds,
     return {glm::mat4(fit(clip_from_scene, *box, bounds, map_size))};
 }
 
-ShadowMaps::ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params)
-    : params_(params), program_(shaders.load({"03_shadow_map/shadow.vert", "03_shadow_map/shadow.frag"}))
+ShadowMaps::ShadowMaps(gl::Shaders& shaders)
+    : program_(shaders.load({"03_shadow_map/shadow.vert", "03_shadow_map/shadow.frag"}))
 {
-    aim(scene);
+    // Until they are drawn, there is something to bind.
+    depth_ = gl::Texture("shadow maps", GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, glm::ivec3(1));
+    layer_buffer_ = gl::Buffer("shadow layers", layers_);
+    light_buffer_ = gl::Buffer("shadow lights", lights_);
 }
 
 void ShadowMaps::aim(const GpuScene& scene)
 {
-    if (!aimed_for_.differs(scene.geometry_revision(), scene.lights_revision())) return;
     // What moves may throw its shadow anywhere, and a map that follows it would flicker.
     const bool fits = !scene.may_move() && !scene.lights().empty();
     const std::vector<Triangle> triangles = fits ? scene.triangles() : std::vector<Triangle>{};
@@ -201,11 +203,15 @@ void ShadowMaps::aim(const GpuScene& scene)
     framebuffer_ = gl::Framebuffer("shadow maps", {}, &depth_);
 }
 
-bool ShadowMaps::draw(const GpuScene& scene)
+bool ShadowMaps::draw(const GpuScene& scene, const ShadowMapParams& params)
 {
-    if (!made_from_.differs(scene.geometry_revision(), scene.lights_revision())) return false;
-    aim(scene);
+    // How the maps are looked into changes what is lit, but not the maps.
+    if (looked_into_.differs(params.shadow_bias, params.shadow_receiver_plane)) ++revision_;
+    params_ = params;
+    if (!made_from_.differs(scene.geometry_revision(), scene.lights_revision(), params.shadow_map_size)) return false;
     ++revision_;
+    drawn_ = true;
+    aim(scene);
     // snippet: draw
     depth_.clear();  // 0: farthest
     glEnable(GL_DEPTH_TEST);
@@ -236,14 +242,14 @@ std::vector<Need> ShadowMaps::needs(const GpuScene& scene) const
     constexpr const char* kTypes[] = {"directional light", "point light", "spot light"};
     std::vector<Need> needs;
     for (const Light& light : scene.lights()) {
-        const int maps = lights_[needs.size()].layers.y;
+        const int maps = drawn_ ? lights_[needs.size()].layers.y : 0;
         const std::string of = " of light " + std::to_string(needs.size()), type = kTypes[int(light.type)];
         const std::string how_many = maps == 1 ? "one map" : std::to_string(maps) + " maps";
         const std::string why = light.intensity == glm::vec3(0.0f) ? " without intensity"
+                                : !drawn_                          ? ": no pass asks its maps"
                                 : maps == 0                        ? ": nothing that it lights is behind anything"
-                                : revision_ > 0                    ? ": " + how_many
-                                                                   : ": no pass asks its maps";
-        needs.push_back({"shadow map" + of, revision_ > 0 && maps > 0, type + why});
+                                                                   : ": " + how_many;
+        needs.push_back({"shadow map" + of, drawn_ && maps > 0, type + why});
     }
     return needs;
 }

@@ -25,10 +25,12 @@ void add_parameters(ParameterTable& table, ShadowMapParams& params);
 // have none. Throws std::runtime_error when maps of 64 texels a side take more than 1 GiB together, 65536 of them.
 class ShadowMaps {
 public:
-    ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params);
-    // Draws the maps if scene or lights have changed, and says whether it did.
-    bool draw(const GpuScene& scene);
+    explicit ShadowMaps(gl::Shaders& shaders);
+    // Draws the maps if scene, lights or their size have changed, and says whether it did. Throws std::runtime_error when
+    // the scene's lights need more layers than the driver has.
+    bool draw(const GpuScene& scene, const ShadowMapParams& params);
     void forget() { made_from_.forget(); }  // the next call draws whatever has changed, for measuring
+    // Changes whenever the maps do, or how they are looked into.
     Revision revision() const { return revision_; }
     // For shaders that include common/shadow_map.glsl: kShadowLayerBinding, kShadowLightBinding, kShadowMapUnit.
     void bind(const gl::Program& program) const;
@@ -44,9 +46,11 @@ public:
 private:
     void aim(const GpuScene& scene);
 
-    ShadowMapParams params_;
-    MadeFrom<Revision, Revision> aimed_for_, made_from_;  // geometry, lights
+    ShadowMapParams params_;                       // of the last draw
+    MadeFrom<Revision, Revision, int> made_from_;  // geometry, lights, size
+    MadeFrom<float, bool> looked_into_;            // bias, receiver plane
     Revision revision_ = 0;
+    bool drawn_ = false;
     gl::Program program_;
     std::vector<shared::ShadowLayer> layers_;
     std::vector<shared::ShadowLight> lights_;

@@ -18,33 +18,28 @@ void add_parameters(ParameterTable& table, VoxelViewParams& params)
     table.add("shaded", params.shaded, "voxel view: shade the cubes");
 }
 
-namespace {
-
-gl::Program load_mark(gl::Shaders& shaders, const VoxelizerParams& params, const std::vector<std::string>& files)
+ConservativeVoxelizer::ConservativeVoxelizer(gl::Shaders& shaders)
+    : raster_mark_(shaders,
+                   {"04_conservative_voxelization/conservative.vert", "04_conservative_voxelization/conservative.geom",
+                    "04_conservative_voxelization/mark.frag"}),
+      mark_small_(shaders, {"04_conservative_voxelization/mark_small.comp"}),
+      mark_large_(shaders, {"04_conservative_voxelization/mark_large.comp"}),
+      next_level_(shaders.load({"04_conservative_voxelization/occupancy_level.comp"})),
+      statistics_("voxel statistics", sizeof(shared::VoxelStatistics))
 {
-    return shaders.load(files, {{"CONSERVATIVE", params.conservative ? "1" : "0"},
-                                {"COUNT_FRAGMENTS", params.count_fragments ? "1" : "0"}});
 }
 
-}  // namespace
-
-ConservativeVoxelizer::ConservativeVoxelizer(gl::Shaders& shaders, const VoxelGrid& grid, const VoxelizerParams& params)
-    : voxelizer_(Voxelizer(params.voxelizer)),
-      next_level_(shaders.load({"04_conservative_voxelization/occupancy_level.comp"})),
-      occupancy_(gl::texture_3d("occupancy", GL_R32UI, grid.size(), grid.levels())),
-      statistics_("voxel statistics", sizeof(shared::VoxelStatistics)),
-      column_plane_("column plane", glm::ivec2(std::max({grid.size().x, grid.size().y, grid.size().z})))
+void ConservativeVoxelizer::allocate(const VoxelGrid& grid, const VoxelizerParams& params)
 {
-    if (voxelizer_ == Voxelizer::raster) {
-        mark_ = load_mark(shaders, params,
-                          {"04_conservative_voxelization/conservative.vert",
-                           "04_conservative_voxelization/conservative.geom", "04_conservative_voxelization/mark.frag"});
-    } else {
-        if (!params.conservative) throw std::runtime_error("conservative=off is for voxelizer=raster only");
-        mark_ = load_mark(shaders, params, {"04_conservative_voxelization/mark_small.comp"});
-        mark_large_ = load_mark(shaders, params, {"04_conservative_voxelization/mark_large.comp"});
+    const glm::ivec3 size = grid.size();
+    if (!occupancy_ || occupancy_.size() != size || occupancy_.levels() != grid.levels()) {
+        occupancy_ = gl::texture_3d("occupancy", GL_R32UI, size, grid.levels());
+        column_plane_ = gl::Framebuffer("column plane", glm::ivec2(std::max({size.x, size.y, size.z})));
     }
-    if (params.count_fragments) fragment_counts_ = gl::texture_3d("fragment counts", GL_R32UI, grid.size());
+    if (!params.count_fragments)
+        fragment_counts_ = {};
+    else if (!fragment_counts_ || fragment_counts_.size() != size)
+        fragment_counts_ = gl::texture_3d("fragment counts", GL_R32UI, size);
 }
 
 std::size_t ConservativeVoxelizer::fragment_count() const
@@ -75,7 +70,7 @@ void ConservativeVoxelizer::make_room(const std::vector<std::size_t>& fragments_
     range_buffer_ = gl::Buffer("fragment ranges", ranges_);
 }
 
-void ConservativeVoxelizer::mark(const GpuScene& scene, const VoxelGrid& grid)
+void ConservativeVoxelizer::mark(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params)
 {
     // Forget what the last run marked.
     occupancy_.clear();
@@ -94,33 +89,37 @@ void ConservativeVoxelizer::mark(const GpuScene& scene, const VoxelGrid& grid)
     range_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentRangeBinding);
     fragments_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentBinding);
     statistics_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
-    if (voxelizer_ == Voxelizer::raster) {
+    const gl::Defines defines = {{"CONSERVATIVE", params.conservative ? "1" : "0"},
+                                 {"COUNT_FRAGMENTS", params.count_fragments ? "1" : "0"}};
+    if (Voxelizer(params.voxelizer) == Voxelizer::raster) {
         const glm::ivec3 size = grid.size();
         column_plane_.bind(glm::ivec2(std::max({size.x, size.y, size.z})));
-        glDisable(GL_DEPTH_TEST);
-        glDisable(GL_BLEND);
-        scene.draw_geometry(mark_);
+        scene.draw_geometry(raster_mark_.with(defines));
     } else {
         large_triangles_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLargeTriangleBinding);
-        mark_.use();
-        mark_.set("triangle_count", GLuint(scene.triangle_count()));
+        const gl::Program &small = mark_small_.with(defines), &large_ones = mark_large_.with(defines);
+        small.use();
+        small.set("triangle_count", GLuint(scene.triangle_count()));
         gl::dispatch_items(scene.triangle_count(), 64);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         // The fewer triangles are large, the more work groups each of them gets.
         const std::size_t large = statistics_.read_at<shared::VoxelStatistics>(0).large;
         const std::size_t groups_of_triangle = std::clamp<std::size_t>(1024 / std::max<std::size_t>(large, 1), 1, 64);
-        mark_large_.use();
-        mark_large_.set("groups_of_triangle", int(groups_of_triangle));
+        large_ones.use();
+        large_ones.set("groups_of_triangle", int(groups_of_triangle));
         gl::dispatch_items(large * groups_of_triangle, 1);
     }
     ranges_ = range_buffer_.read<shared::FragmentRange>();
 }
 
-bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
+bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params)
 {
-    if (!made_from_.differs(scene.geometry_revision())) return false;
+    if (!made_from_.differs(scene.geometry_revision(), grid.revision(), params)) return false;
+    const bool compute = Voxelizer(params.voxelizer) == Voxelizer::compute;
+    if (compute && !params.conservative) throw std::runtime_error("conservative=off is for voxelizer=raster only");
     ++revision_;
-    if (ranges_.size() != scene.material_uses().size()) {
+    allocate(grid, params);
+    if (room_for_.differs(grid.revision())) {
         // In the mean over all places a triangle meets 1 + its box's sides + its areas along the axes in voxels: the
         // volume of its Minkowski sum with a voxel. Places that are not random, as of walls between two layers of
         // voxels, may find more; a quarter is left for them.
@@ -134,10 +133,10 @@ bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
         std::vector<std::size_t> fragments;
         for (const MaterialUse& use : scene.material_uses()) fragments.push_back(std::size_t(share * mean(use)));
         make_room(fragments);
-        if (voxelizer_ == Voxelizer::compute)
-            large_triangles_ = gl::Buffer("large triangles", scene.triangle_count() * sizeof(GLuint));
     }
-    mark(scene, grid);
+    if (compute && !large_triangles_)
+        large_triangles_ = gl::Buffer("large triangles", scene.triangle_count() * sizeof(GLuint));
+    mark(scene, grid, params);
 
     // The counts are right even where there was no room for all.
     const auto found_more = [](const shared::FragmentRange& range) { return range.count > range.capacity; };
@@ -145,7 +144,7 @@ bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
         std::vector<std::size_t> fragments;
         for (const shared::FragmentRange& range : ranges_) fragments.push_back(range.count);
         make_room(fragments);
-        mark(scene, grid);
+        mark(scene, grid, params);
     }
 
     // Carry the marks to the coarser levels.

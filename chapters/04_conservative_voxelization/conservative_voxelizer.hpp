@@ -16,18 +16,20 @@ struct VoxelizerParams {
     bool conservative = true;
     // Keep how many fragments fell into each voxel: fragment_counts(). Costs a volume; for chapter 04's views.
     bool count_fragments = false;
+    bool operator==(const VoxelizerParams&) const = default;
 };
 // Enters `voxelizer`; the other two are chapter 04's own business.
 void add_parameters(ParameterTable& table, VoxelizerParams& params);
 
 class ConservativeVoxelizer {
 public:
-    ConservativeVoxelizer(gl::Shaders& shaders, const VoxelGrid& grid, const VoxelizerParams& params);
+    explicit ConservativeVoxelizer(gl::Shaders& shaders);
 
-    // Fill occupancy() and its levels, and the list of fragments, from the scene's triangles if these have changed; says
-    // whether they have. Reads counters back to the CPU to size the list; throws std::runtime_error when it would be
-    // longer than the driver's storage blocks.
-    bool run(const GpuScene& scene, const VoxelGrid& grid);
+    // Fill occupancy() and its levels, and the list of fragments, from the scene's triangles if these, the grid or a
+    // parameter have changed; says whether they have. Reads counters back to the CPU to size the list. Throws
+    // std::runtime_error when it would be longer than the driver's storage blocks, and for parameters that do not go
+    // together.
+    bool run(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params);
     void forget() { made_from_.forget(); }  // the next run fills them whatever has changed, for measuring
     Revision revision() const { return revision_; }
 
@@ -47,12 +49,14 @@ public:
     std::vector<gl::Resource> resources() const;
 
 private:
+    void allocate(const VoxelGrid& grid, const VoxelizerParams& params);
     void make_room(const std::vector<std::size_t>& fragments_of_materials);
-    void mark(const GpuScene& scene, const VoxelGrid& grid);
-    MadeFrom<Revision> made_from_;
+    void mark(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params);
+    MadeFrom<Revision, Revision, VoxelizerParams> made_from_;  // geometry, grid
+    MadeFrom<Revision> room_for_;                              // grid
     Revision revision_ = 0;
-    Voxelizer voxelizer_;
-    gl::Program mark_, mark_large_, next_level_;
+    gl::ProgramVariants raster_mark_, mark_small_, mark_large_;
+    gl::Program next_level_;
     gl::Texture occupancy_, fragment_counts_;
     gl::Buffer statistics_, fragments_, range_buffer_, large_triangles_;
     std::vector<shared::FragmentRange> ranges_;  // as the GPU left them

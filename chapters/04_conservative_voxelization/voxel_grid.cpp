@@ -59,8 +59,17 @@ shared::GridData grid_within_limits(const Bounds& bounds, VoxelGridParams params
 }  // namespace
 
 VoxelGrid::VoxelGrid(const Bounds& bounds, const VoxelGridParams& params, int volumes_along_x)
-    : data_(grid_within_limits(bounds, params, volumes_along_x)), buffer_("voxel grid", sizeof data_, &data_)
+    : volumes_along_x_(volumes_along_x)
 {
+    fit(bounds, params);
+}
+
+void VoxelGrid::fit(const Bounds& bounds, const VoxelGridParams& params)
+{
+    if (!made_from_.differs(bounds.min, bounds.max, params.voxels)) return;
+    ++revision_;
+    data_ = grid_within_limits(bounds, params, volumes_along_x_);
+    buffer_ = gl::Buffer("voxel grid", sizeof data_, &data_);
 }
 
 }  // namespace conebook

@@ -5,19 +5,19 @@
 
 namespace conebook {
 
-NaiveAverage::NaiveAverage(gl::Shaders& shaders, const VoxelGrid& grid, Averaging averaging)
-    : programs_(shaders, "05_atomic_averaging/naive_average.comp",
-                {{"RACING_STORE", averaging == Averaging::racing_store ? "1" : "0"},
-                 {"TRUNCATING", averaging == Averaging::compare_and_swap_truncating ? "1" : "0"}}),
-      color_(gl::texture_3d("naive mean", GL_R32UI, grid.size()))
+NaiveAverage::NaiveAverage(gl::Shaders& shaders) : programs_(shaders, "05_atomic_averaging/naive_average.comp")
 {
 }
 
-void NaiveAverage::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
+void NaiveAverage::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
+                       Averaging averaging)
 {
+    if (!color_ || color_.size() != grid.size()) color_ = gl::texture_3d("naive mean", GL_R32UI, grid.size());
     color_.clear();
     color_.bind_image(0, 0, GL_READ_WRITE);
-    programs_.run(scene, grid, voxelizer);
+    programs_.run(scene, grid, voxelizer,
+                  {{"RACING_STORE", averaging == Averaging::racing_store ? "1" : "0"},
+                   {"TRUNCATING", averaging == Averaging::compare_and_swap_truncating ? "1" : "0"}});
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 

@@ -11,9 +11,9 @@ enum class Averaging : int { sums = 0, compare_and_swap = 1, compare_and_swap_tr
 // Into one RGBA8 texel a voxel; both sides of a sheet share it. Every fragment weighs the same.
 class NaiveAverage {
 public:
+    explicit NaiveAverage(gl::Shaders& shaders);
     // `averaging`: any but the sums.
-    NaiveAverage(gl::Shaders& shaders, const VoxelGrid& grid, Averaging averaging);
-    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer, Averaging averaging);
     const gl::Texture& color() const { return color_; }  // r32ui holding RGBA8, A the number of fragments
 
 private:

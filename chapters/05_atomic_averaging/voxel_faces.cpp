@@ -48,17 +48,18 @@ std::vector<Need> voxel_material_needs(const GpuScene& scene)
             {"emission in voxels", emission, emission ? "materials shine" : "no material shines: no sums for it"}};
 }
 
-const gl::Program& FragmentPrograms::of(const GpuScene& scene, std::size_t material)
+const gl::Program& FragmentPrograms::of(const GpuScene& scene, std::size_t material, const gl::Defines& more)
 {
     const bool vertex_alpha = scene.material_uses()[material].vertex_alpha;
     gl::Defines defines = voxel_material_defines(scene.materials()[material], vertex_alpha);
-    defines.insert(defines_.begin(), defines_.end());
+    defines.insert(more.begin(), more.end());
     gl::Program& program = programs_[defines];
     if (program.id() == 0) program = shaders_->load({file_}, defines);
     return program;
 }
 
-void FragmentPrograms::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
+void FragmentPrograms::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
+                           const gl::Defines& more)
 {
     grid.bind();
     scene.bind_triangles();
@@ -66,7 +67,7 @@ void FragmentPrograms::run(const GpuScene& scene, const VoxelGrid& grid, const C
     scene.for_each_material([&](std::size_t i) {
         const shared::FragmentRange& range = voxelizer.fragment_ranges()[i];
         if (range.count == 0) return;
-        const gl::Program& program = of(scene, i);
+        const gl::Program& program = of(scene, i, more);
         program.use();
         program.set("first_fragment", range.begin);
         program.set("fragment_count", range.count);
@@ -74,15 +75,20 @@ void FragmentPrograms::run(const GpuScene& scene, const VoxelGrid& grid, const C
     });
 }
 
-VoxelFaces::VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
+VoxelFaces::VoxelFaces(gl::Shaders& shaders, const ConservativeVoxelizer& voxelizer)
     : count_blocks_(shaders.load({"05_atomic_averaging/count_blocks.comp"})),
       scan_blocks_(shaders.load({"05_atomic_averaging/scan_blocks.comp"})),
       write_list_(shaders.load({"05_atomic_averaging/write_list.comp"})),
       resolve_(shaders.load({"05_atomic_averaging/resolve.comp"})),
       accumulate_(shaders, "05_atomic_averaging/accumulate.comp"),
-      face_index_(gl::texture_3d("face index", GL_R32UI, grid.size())),
       statistics_(&voxelizer.statistics_buffer())
 {
+}
+
+void VoxelFaces::allocate(const VoxelGrid& grid)
+{
+    if (face_index_ && face_index_.size() == grid.size()) return;
+    face_index_ = gl::texture_3d("face index", GL_R32UI, grid.size());
     const glm::ivec3 blocks = blocks_of(grid);
     block_counts_ = gl::Buffer("block counts", std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z) *
                                                    4 * sizeof(GLuint));
@@ -130,6 +136,7 @@ bool VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const Conserv
 {
     if (!made_from_.differs(voxelizer.revision())) return false;
     ++revision_;
+    allocate(grid);
     make_lists(grid, voxelizer);
 
     // Add up the fragments of every face.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 
 #include "04_conservative_voxelization/conservative_voxelizer.hpp"
 #include "app/statistics.hpp"
@@ -14,17 +15,15 @@ namespace conebook {
 class FragmentPrograms {
 public:
     // `shaders` must outlive it.
-    FragmentPrograms(gl::Shaders& shaders, const std::string& file, const gl::Defines& defines = {})
-        : shaders_(&shaders), file_(file), defines_(defines)
-    {
-    }
-    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    FragmentPrograms(gl::Shaders& shaders, const std::string& file) : shaders_(&shaders), file_(file) {}
+    // `more`: defines beside those of the materials.
+    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
+             const gl::Defines& more = {});
 
 private:
-    const gl::Program& of(const GpuScene& scene, std::size_t material);
+    const gl::Program& of(const GpuScene& scene, std::size_t material, const gl::Defines& more);
     gl::Shaders* shaders_;
     std::string file_;
-    gl::Defines defines_;
     std::map<gl::Defines, gl::Program> programs_;
 };
 
@@ -35,11 +34,12 @@ std::vector<Need> voxel_material_needs(const GpuScene& scene);
 class VoxelFaces {
 public:
     // `shaders` and `voxelizer` must outlive it.
-    VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    VoxelFaces(gl::Shaders& shaders, const ConservativeVoxelizer& voxelizer);
 
     // Make the lists from voxelizer.occupancy(), add up all fragments, divide. Reads two counters back to the CPU to
     // size the buffers; throws std::runtime_error when there are more faces than an index (2^26) or a storage block
     // holds. Does nothing while the voxelizer has not run again; says whether it did.
+    // `voxelizer`: the one of the constructor.
     bool run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
 
     // Changes whenever the lists or the means do.
@@ -61,6 +61,7 @@ public:
     void bind() const;
 
 private:
+    void allocate(const VoxelGrid& grid);
     void make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
     gl::Program count_blocks_, scan_blocks_, write_list_, resolve_;
     FragmentPrograms accumulate_;

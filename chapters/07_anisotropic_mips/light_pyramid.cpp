@@ -80,29 +80,36 @@ void OccupiedLevels::dispatch(const gl::Program& program, int level, int items_o
     glDispatchComputeIndirect(GLintptr(std::size_t(items_of) * sizeof(glm::uvec4)));
 }
 
-LightPyramid::LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params)
-    : format_(LightFormat(params.format)),
-      unit_(shaders.load({"07_anisotropic_mips/light_unit.comp"}, storing_defines(params))),
-      base_(shaders.load({"07_anisotropic_mips/light_base.comp"}, storing_defines(params))),
-      next_level_(shaders.load({"07_anisotropic_mips/light_level.comp"}, storing_defines(params))),
+LightPyramid::LightPyramid(gl::Shaders& shaders)
+    : unit_(shaders, {"07_anisotropic_mips/light_unit.comp"}),
+      base_(shaders, {"07_anisotropic_mips/light_base.comp"}),
+      next_level_(shaders, {"07_anisotropic_mips/light_level.comp"}),
       occupied_(shaders),
       scale_("light scale", std::vector{glm::vec4(1.0f)})
 {
-    constexpr GLenum kFormats[] = {GL_RGBA16F, GL_RGBA8, GL_R11F_G11F_B10F};
-    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
-    light_ = gl::texture_3d("light pyramid", kFormats[params.format], size, grid.levels());
-    light_.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
-    if (format_ == LightFormat::r11g11b10f) {
-        coverage_ = gl::texture_3d("coverage pyramid", GL_R8, size, grid.levels());
-        coverage_.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
-    }
 }
 
-void LightPyramid::prepare(const VoxelGrid& grid, const VoxelFaces& faces)
+void LightPyramid::prepare(const VoxelGrid& grid, const VoxelFaces& faces, LightFormat format)
 {
-    if (!prepared_for_.differs(faces.revision())) return;
+    if (!prepared_for_.differs(faces.revision(), format)) return;
+    constexpr GLenum kFormats[] = {GL_RGBA16F, GL_RGBA8, GL_R11F_G11F_B10F};
+    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
+    const auto fit = [&](gl::Texture& texture, const char* label, GLenum texels) {
+        if (texture && texture.size() == size && texture.levels() == grid.levels() && texture.format() == texels)
+            return;
+        texture = gl::texture_3d(label, texels, size, grid.levels());
+        texture.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
+    };
+    fit(light_, "light pyramid", kFormats[int(format)]);
     light_.clear();
-    if (coverage_) coverage_.clear();
+    if (format == LightFormat::r11g11b10f) {
+        fit(coverage_, "coverage pyramid", GL_R8);
+        coverage_.clear();
+    } else {
+        coverage_ = {};
+    }
+    if (format != format_) scale_ = gl::Buffer("light scale", std::vector{glm::vec4(1.0f)});
+    format_ = format;
     occupied_.run(grid, faces);
 }
 
@@ -126,11 +133,12 @@ void LightPyramid::bind_level(int level) const
 }
 
 bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& reflected, Revision revision,
-                       LightPart part)
+                       const PyramidParams& params, LightPart part)
 {
-    if (!made_from_.differs(faces.revision(), reflected.id(), revision, part)) return false;
+    if (!made_from_.differs(faces.revision(), reflected.id(), revision, part, params)) return false;
     ++revision_;
-    prepare(grid, faces);
+    prepare(grid, faces, LightFormat(params.format));
+    const gl::Defines storing = storing_defines(params);
     constexpr GLbitfield kWrittenImage = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
     grid.bind();
     faces.bind();
@@ -141,17 +149,19 @@ bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
     // The unit that radiance is kept in.
     const glm::vec4 least(format_ == LightFormat::rgba8 ? 1e-6f : 1.0f);  // what is black is not divided by 0
     scale_.write(0, sizeof least, &least);
-    unit_.set("part", kWeights[int(part)]);
+    const gl::Program& unit = unit_.with(storing);
+    unit.set("part", kWeights[int(part)]);
     scale_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightScaleBinding);
-    unit_.use();
+    unit.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_UNIFORM_BARRIER_BIT);
 
     // Finest level: occupied voxels only, the others stay empty.
     bind_level(0);
-    base_.set("part", kWeights[int(part)]);
-    base_.use();
+    const gl::Program& base = base_.with(storing);
+    base.set("part", kWeights[int(part)]);
+    base.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.voxel_groups().id());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(kWrittenImage);
@@ -159,7 +169,7 @@ bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
     // Each level from the one below, where there is something.
     for (int level = 1; level < grid.levels(); ++level) {
         bind_level(level);
-        occupied_.dispatch(next_level_, level);
+        occupied_.dispatch(next_level_.with(storing), level);
         glMemoryBarrier(kWrittenImage);
     }
     return true;

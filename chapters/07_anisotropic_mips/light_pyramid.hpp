@@ -21,6 +21,7 @@ enum class LightPart { all, reflected, emitted, none };
 struct PyramidParams {
     int directions = int(Directions::per_face);
     int format = int(LightFormat::rgba16f);
+    bool operator==(const PyramidParams&) const = default;
 };
 void add_parameters(ParameterTable& table, PyramidParams& params);
 
@@ -44,19 +45,19 @@ private:
 
 class LightPyramid {
 public:
-    LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params);
+    explicit LightPyramid(gl::Shaders& shaders);
 
     // All levels from what the faces reflect (vec4 a face: rgb in W/(sr m^2), of that revision) and emit, `part` of it; if
     // any of that has changed. Says whether it has.
     bool run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& reflected, Revision revision,
-             LightPart part = LightPart::all);
+             const PyramidParams& params, LightPart part = LightPart::all);
     Revision revision() const { return revision_; }
 
     // kLightAtlasUnit, kCoverageAtlasUnit and uniform block 4, for shaders that include 07_anisotropic_mips/pyramid.glsl.
     void bind() const;
     // kEmissionAtlasUnit and uniform block 5, beside another one that is bound as above; format rgba16f.
     void bind_as_emission() const;
-    LightFormat format() const { return format_; }
+    LightFormat format() const { return format_; }  // of the last run
     // For programs that include 07_anisotropic_mips/pyramid.glsl.
     gl::Defines defines() const;
     // Six times the grid's width (face * size.x + x), all levels of the grid; see 07_anisotropic_mips/pyramid.glsl.
@@ -69,15 +70,15 @@ public:
     }
 
 private:
-    // When other voxels become occupied: empties all levels and lists what they will hold.
-    void prepare(const VoxelGrid& grid, const VoxelFaces& faces);
+    // When other voxels become occupied, or texels are to be others: empties all levels and lists what they will hold.
+    void prepare(const VoxelGrid& grid, const VoxelFaces& faces, LightFormat format);
     void bind_level(int level) const;
-    MadeFrom<Revision> prepared_for_;                        // faces
+    MadeFrom<Revision, LightFormat> prepared_for_;  // faces
     // Faces, what they reflect: which buffer, for each counts its own revisions.
-    MadeFrom<Revision, GLuint, Revision, LightPart> made_from_;
+    MadeFrom<Revision, GLuint, Revision, LightPart, PyramidParams> made_from_;
     Revision revision_ = 0;
-    LightFormat format_;
-    gl::Program unit_, base_, next_level_;
+    LightFormat format_ = LightFormat::rgba16f;
+    gl::ProgramVariants unit_, base_, next_level_;
     OccupiedLevels occupied_;
     gl::Texture light_, coverage_;
     gl::Buffer scale_;

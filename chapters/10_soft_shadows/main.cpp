@@ -4,7 +4,7 @@
 //
 // beside the shadow maps of chapter 03 and the visibility that the voxels of chapter 06 keep.
 // Page: docs/10_soft_shadows.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "10_soft_shadows/soft_shadows.hpp"
 #include "app/needs.hpp"
 
@@ -31,9 +31,8 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_map_params);
-    const bool asks_maps =
-        asks_shadow_maps(shadow_params) || voxel_params.shading.voxel_shadows == int(VoxelShadows::map);
+    app.show_meanwhile(first_light(app, scene, display_params));
+    ShadowMaps shadow_maps(app.shaders());
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     WalkVolume walk_volume(app.shaders());
     GBuffer g_buffer(app.shaders(), app.size());
@@ -41,9 +40,10 @@ try {
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // What the lights see, if pixels or voxels ask.
-        if (asks_maps) app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+        if (asks_shadow_maps(shadow_params) || voxel_params.shading.voxel_shadows == int(VoxelShadows::map))
+            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_map_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
         voxels.shade(app, scene, shadow_maps);
@@ -71,7 +71,7 @@ try {
                                         composite_params, cone_params.sky);
             });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     app.statistics().set_counts(voxels.counts());
     for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), walk_volume.resources(),

@@ -20,9 +20,9 @@ SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders)
 
 void SoftShadowLighting::fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading)
 {
-    if (!visibility_volume_) {
-        visibility_volume_ =
-            gl::texture_3d("visibility volume", GL_RGBA8, grid.size() * glm::ivec3(shared::kFaceCount, 1, 1));
+    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
+    if (!visibility_volume_ || visibility_volume_.size() != size) {
+        visibility_volume_ = gl::texture_3d("visibility volume", GL_RGBA8, size);
         visibility_volume_.set_filter(GL_LINEAR, GL_LINEAR);
     }
     visibility_volume_.clear();

@@ -33,7 +33,7 @@ CameraLight::CameraLight(gl::Shaders& shaders, const SceneLight& light, glm::ive
       direct_lighting_(shaders),
       diffuse_cones_(shaders),
       emitter_light_(shaders),
-      specular_cones_(shaders, light.emitters().specular_folder()),
+      specular_cones_(shaders),
       composite_(shaders),
       accumulation_(shaders),
       pyramid_view_(shaders),
@@ -69,7 +69,8 @@ void CameraLight::gather(App& app)
     if (!has_specular_surfaces(app.scene())) return;
     app.pass("specular cones", [&] {
         light_.emitters().bind_emission();
-        specular_ = &specular_cones_.run(g_buffer_, light_.volumes(), params_.cones, params_.specular, sample_);
+        specular_ = &specular_cones_.run(g_buffer_, light_.volumes(), params_.cones, params_.specular, sample_,
+                                         light_.emitters().specular_folder());
     });
 }
 

@@ -5,7 +5,7 @@
 //     R(k) = R(0) + rho / n * sum_links (R + Le),     R(0) = (rho / pi) E_direct
 //
 // Page: docs/12_second_bounce.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "12_second_bounce/camera_light.hpp"
 
 using namespace conebook;
@@ -20,11 +20,12 @@ try {
     App app(argc, argv, {"12_second_bounce", light_views(), parameters});
 
     const GpuScene scene(app.scene());
+    app.show_meanwhile(first_light(app, scene, display_params));
     SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params);
     CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // What has changed of: shadow maps -> voxels -> their direct light -> all bounces -> six pyramids.
         scene_light.run(app, scene, camera_params.cones, asks_shadow_maps(camera_params.shadows));
 
@@ -40,7 +41,7 @@ try {
         // Exposure, tone curve, sRGB.
         app.show(linear, tone_map.run(linear, app.view().encoding, display_params,
                                       data_scale(app.view(), scene.bounds())));
-    }
+    });
 
     app.statistics().set_counts(scene_light.counts());
     for (const auto& part : {scene.resources(), scene_light.resources(), camera_light.resources()})

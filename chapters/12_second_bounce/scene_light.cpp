@@ -14,10 +14,10 @@ void add_parameters(ParameterTable& table, SceneLightParams& params)
 
 SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params)
     : params_(params),
-      shadow_maps_(shaders, scene, params.shadow_maps),
+      shadow_maps_(shaders),
       voxels_(shaders, scene, params.voxels),
       walk_volume_(shaders),
-      emitters_(shaders, source, voxels_.grid(), params.emitters),
+      emitters_(shaders, source),
       bounces_(shaders)
 {
 }
@@ -27,7 +27,7 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, b
     if (params_.voxels.update == int(Update::always)) shadow_maps_.forget();
     // What the lights see, if pixels or voxels ask.
     if (ask_maps || params_.voxels.shading.voxel_shadows == int(VoxelShadows::map))
-        app.pass("shadow maps", Scope::light, [&] { return shadow_maps_.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps_.draw(scene, params_.shadow_maps); });
 
     // Triangles -> voxels -> what their faces reflect of direct light.
     voxels_.shade(app, scene, shadow_maps_);
@@ -35,7 +35,7 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, b
     // Where rays may leap, and what shines.
     app.pass("walk volume", Scope::scene, [&] { return walk_volume_.run(voxels_.grid(), voxels_.faces()); });
     app.pass("emitters", Scope::scene,
-             [&] { return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading()); });
+             [&] { return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), params_.emitters); });
 
     // Faces light faces, along links that stay.
     const bool many = params_.bounces.bounces < 0 || params_.bounces.bounces > 1;

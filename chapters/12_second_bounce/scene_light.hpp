@@ -17,7 +17,7 @@ void add_parameters(ParameterTable& table, SceneLightParams& params);
 
 class SceneLight {
 public:
-    // `shaders` and `params` must outlive this.
+    // `shaders`, `source` and `params` must outlive this.
     SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params);
 
     // `ask_maps`: pixels look into the shadow maps, too.

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "12_second_bounce/camera_light.hpp"
 #include "13_ground_truth/background_tracer.hpp"
 #include "13_ground_truth/side_by_side.hpp"
@@ -39,6 +39,7 @@ try {
     App app(argc, argv, {"13_ground_truth", reference_views(), parameters});
 
     const GpuScene scene(app.scene());
+    app.show_meanwhile(first_light(app, scene, display_params));
     SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params);
     CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
     const bool headless = app.options().headless;
@@ -46,7 +47,7 @@ try {
     SideBySide side_by_side(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         const Show show = what_to_show(app.view(), reference_params, headless);
 
         // The path tracer's picture of the same light: headless so many samples a frame; in a window a thread refines
@@ -70,6 +71,9 @@ try {
             picture = &camera_light.sum(app);
         }
 
+        // The tracer goes on.
+        if (reference != nullptr && !headless) app.expect_more();
+
         // One of them, or both as one picture.
         SideBySideResult result;
         app.pass("side by side", [&] {
@@ -79,7 +83,7 @@ try {
         // Exposure, tone curve, sRGB.
         app.show(*result.linear, tone_map.run(*result.shown, result.encoding, display_params,
                                               data_scale(app.view(), scene.bounds())));
-    }
+    });
 
     std::vector<Count> counts = scene_light.counts();
     if (const auto traced = path_tracer.newest()) {

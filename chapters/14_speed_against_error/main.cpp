@@ -6,7 +6,7 @@
 //
 // t: ms a frame, e: error against the path tracer. ./run report measures both for many settings.
 // Page: docs/14_speed_against_error.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "12_second_bounce/camera_light.hpp"
 #include "14_speed_against_error/fetch_counter.hpp"
 #include "14_speed_against_error/part_pictures.hpp"
@@ -46,13 +46,14 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
+    app.show_meanwhile(first_light(app, scene, display_params));
     SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params);
     CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
     FetchCounter fetch_counter(app.shaders());
     ToneMapPass tone_map(app.shaders());
     FetchCounts fetches;
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // Chapter 12's frame: light in the voxels, surfaces, cones, sum.
         scene_light.run(app, scene, camera_params.cones, asks_shadow_maps(camera_params.shadows));
         camera_light.see(app, scene);
@@ -71,7 +72,7 @@ try {
         else
             app.show(linear,
                      tone_map.run(linear, app.view().encoding, display_params, data_scale(app.view(), scene.bounds())));
-    }
+    });
     if (measure_params.write_parts && !app.options().output.empty()) {
         write_part_pictures(app.options().output, camera_light);
         camera_light.composite(app.view().name);  // where the parts were is what finish() writes

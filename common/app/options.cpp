@@ -59,7 +59,7 @@ std::vector<View> joined(std::vector<View> first, const std::vector<View>& secon
 Options parse_options(int argc, char** argv, ProgramInfo& info)
 {
     Options options;
-    std::string scene, size, output, stats;
+    std::string scene, size, output, stats, trace_frames;
     std::vector<std::string> assignments;
     int camera = -1;
     bool list_views = false, list_parameters = false, list_devices = false;
@@ -75,6 +75,10 @@ Options parse_options(int argc, char** argv, ProgramInfo& info)
     CLI::Option* camera_option = cli.add_option("--camera", camera, "the scene's Nth camera, from 0");
     cli.add_option("--stats", stats, "write times and memory as JSON");
     cli.add_flag("--print-stats", options.print_stats, "print times and memory as a table");
+    cli.add_option("--trace-frames", trace_frames,
+                   "write a line for each picture that a window shows: when (s, monotonic clock), meanwhile or frame, "
+                   "its size, the window's, view, sample, changes by the reader so far, "
+                   "parameters that are not the default");
     cli.add_option("--set", assignments, "NAME=VALUE ..., parameters; --list-params names them")
         ->type_name("NAME=VALUE");
     cli.add_flag("--list-views", list_views, "name the views and end");
@@ -118,11 +122,13 @@ Options parse_options(int argc, char** argv, ProgramInfo& info)
     }
     options.output = output;
     options.stats = stats;
+    options.trace_frames = trace_frames;
     const std::string extension = options.output.extension().string();
     if (!options.output.empty() && extension != ".png" && extension != ".exr")
         throw std::runtime_error("--output " + output + ": must end in .png or .exr");
     check_writable("--output", options.output);
     check_writable("--stats", options.stats);
+    check_writable("--trace-frames", options.trace_frames);
     options.size = !size.empty() ? parse_size(size) : options.headless ? glm::ivec2(512, 512) : glm::ivec2(1280, 720);
     options.root = find_root();
     options.scene = scene.empty() ? options.root / "assets" / "cornell_box.glb" : std::filesystem::path(scene);

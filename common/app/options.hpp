@@ -38,6 +38,7 @@ struct Options {
     std::filesystem::path output;  // empty: nothing is written
     std::filesystem::path stats;   // empty: not written
     std::filesystem::path root;    // the folder that holds shaders/ and assets/
+    std::filesystem::path trace_frames;  // empty: not written
     bool headless = false;
     std::string device;            // for Context::headless
     bool print_stats = false;

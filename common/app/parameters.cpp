@@ -1,8 +1,10 @@
 #include "app/parameters.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <stdexcept>
 
 namespace conebook {
@@ -44,6 +46,18 @@ double parse_number(const std::string& name, const std::string& text)
 }
 
 }  // namespace
+
+double Parameter::value() const
+{
+    return as_float != nullptr ? double(*as_float) : as_int != nullptr ? double(*as_int) : double(*as_bool);
+}
+
+void Parameter::set(double value) const
+{
+    if (as_float != nullptr) *as_float = float(value);
+    if (as_int != nullptr) *as_int = int(value);
+    if (as_bool != nullptr) *as_bool = value != 0.0;
+}
 
 std::string Parameter::value_text(double value) const
 {
@@ -135,17 +149,31 @@ void ParameterTable::set(const std::string& assignment)
     const bool whole = found->as_int != nullptr || found->as_bool != nullptr;
     if (whole && value != std::floor(value))
         throw std::runtime_error("--set " + name + "=" + text + ": must be a whole number");
-    if (found->as_float != nullptr) *found->as_float = float(value);
-    if (found->as_int != nullptr) *found->as_int = int(value);
-    if (found->as_bool != nullptr) *found->as_bool = value != 0.0;
+    found->set(value);
 }
 
 std::vector<double> ParameterTable::values() const
 {
     std::vector<double> all;
-    for (const Parameter& p : parameters_)
-        all.push_back(p.as_float != nullptr ? double(*p.as_float) : p.as_int != nullptr ? double(*p.as_int) : double(*p.as_bool));
+    for (const Parameter& p : parameters_) all.push_back(p.value());
     return all;
+}
+
+void ParameterTable::set_values(const std::vector<double>& values)
+{
+    for (std::size_t i = 0; i < parameters_.size(); ++i) parameters_[i].set(values[i]);
+}
+
+std::string ParameterTable::changed() const
+{
+    std::string out;
+    for (const Parameter& p : parameters_) {
+        if (p.value() == p.default_value) continue;
+        char number[32];
+        const auto end = p.as_float != nullptr ? std::to_chars(number, std::end(number), *p.as_float).ptr : number;
+        out += " " + p.name + "=" + (p.as_float != nullptr ? std::string(number, end) : p.value_text(p.value()));
+    }
+    return out;
 }
 
 std::string ParameterTable::listing() const

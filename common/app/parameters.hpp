@@ -15,6 +15,8 @@ struct Parameter {
     std::vector<std::string> choices;     // with as_int: its values by name, 0, 1, 2, ...
     std::vector<int> values;              // with as_int and no choices: the only ones allowed, if any
     double default_value = 0.0;
+    double value() const;
+    void set(double value) const;  // into the field; must be one of those allowed
     std::string value_text(double value) const;
     std::string range_text() const;
 };
@@ -33,6 +35,9 @@ public:
     void set(const std::string& assignment);
     const std::vector<Parameter>& all() const { return parameters_; }
     std::vector<double> values() const;  // of all, in their order
+    void set_values(const std::vector<double>& values);  // the same, as values() gives them
+    // " NAME=VALUE" of each that is not the default, as set() takes it, to the last bit.
+    std::string changed() const;
     // One line a parameter: name, default, range, unit, help.
     std::string listing() const;
 

@@ -26,12 +26,21 @@ void PassTimer::time(const std::string& pass, Scope scope, const std::function<b
     }
     pending_.push_back({pass, scope, frame_, std::move(unused_.back())});
     unused_.pop_back();
+    bool ran = false;
+    const auto end = [&] {
+        glEndQuery(GL_TIME_ELAPSED);
+        if (ran) return;
+        unused_.push_back(std::move(pending_.back().query));
+        pending_.pop_back();
+    };
     glBeginQuery(GL_TIME_ELAPSED, pending_.back().query.id());
-    const bool ran = work();
-    glEndQuery(GL_TIME_ELAPSED);
-    if (ran) return;
-    unused_.push_back(std::move(pending_.back().query));
-    pending_.pop_back();
+    try {
+        ran = work();
+    } catch (...) {
+        end();
+        throw;
+    }
+    end();
 }
 
 void PassTimer::end_frame(Statistics& statistics)

@@ -18,14 +18,24 @@ double median(std::vector<double> values)
     return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
+double minimum(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
+
+}  // namespace
+
 const char* scope_name(Scope scope)
 {
     return scope == Scope::scene ? "scene" : scope == Scope::light ? "light" : "camera";
 }
 
-double minimum(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
-
-}  // namespace
+std::vector<PassTime> Statistics::last_times() const
+{
+    std::vector<PassTime> all;
+    for (const std::string& name : pass_order_) {
+        const Pass& pass = passes_.at(name);
+        all.push_back({name, pass.scope, pass.times_ms.back()});
+    }
+    return all;
+}
 
 void Statistics::add_time(const std::string& pass, Scope scope, double milliseconds)
 {

@@ -106,8 +106,11 @@ float coverage_met_above(WalkRay ray, uint word, RayStart start, float t)
 }
 // end snippet
 
-// Until where a ray is in the blur of the surface that it starts from.
-float own_blur_end(RayStart start, vec3 direction) { return kBlur / max(dot(start.normal, direction), 1e-3); }
+// Until where a ray is in the blur of the surface that it starts from; 0 where there is none.
+float own_blur_end(RayStart start, vec3 direction)
+{
+    return kBlur * dot(start.normal, start.normal) / max(dot(start.normal, direction), 1e-3);
+}
 
 // Distance along the ray to where it leaves the scene's bounds, moved out by `margin`; all in voxels.
 float exit_distance(vec3 origin, vec3 direction, float margin)

@@ -394,9 +394,9 @@ TEST(Averaging, RunningMeansOfEightBitsStick)
                 high = std::max(high, mean);
                 shuffled += mean / 1000.0;
             }
-            NaiveAverage naive(test_gl().shaders, pipeline.grid(),
-                               truncating ? Averaging::compare_and_swap_truncating : Averaging::compare_and_swap);
-            naive.run(pipeline.scene(), pipeline.grid(), pipeline.voxelizer());
+            NaiveAverage naive(test_gl().shaders);
+            naive.run(pipeline.scene(), pipeline.grid(), pipeline.voxelizer(),
+                      truncating ? Averaging::compare_and_swap_truncating : Averaging::compare_and_swap);
             int found = 0;
             for (const GLuint texel : gl::read_uints(naive.color()))
                 if (texel != 0u) found = int(texel & 255u);

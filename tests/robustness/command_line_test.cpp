@@ -233,10 +233,10 @@ TEST(OpenGlFaults, AGraveMessageOrAnErrorFails)
         const gl::Texture linear = gl::texture_2d("linear", GL_RGBA32F, {8, 8});
         const gl::Texture display = gl::texture_2d("display", GL_RGBA8, {8, 8});
         linear.clear();
-        while (app.next_frame()) {
+        app.each_frame([&] {
             app.pass("fault", fault);
             app.show(linear, display);
-        }
+        });
         return app.finish();
     };
     const auto message = [](GLenum severity) {
