@@ -53,10 +53,10 @@ void CameraLight::see(App& app, const GpuScene& scene)
     });
 }
 
-void CameraLight::gather(App& app)
+void CameraLight::gather(App& app, const LightPlan& plan)
 {
     gathered_ = specular_ = nullptr;
-    if (!light_.has_indirect()) return;
+    if (!plan.diffuse_cones.used) return;
     directions_.update(params_.cones, sample_);
     app.pass("diffuse cones", [&] {
         gathered_ = &diffuse_cones_.run(g_buffer_, light_.volumes(), directions_, params_.cones, params_.diffuse, sample_);
@@ -66,7 +66,7 @@ void CameraLight::gather(App& app)
                                         params_.cones, sample_);
         return light_.emitters().are_apart();
     });
-    if (!has_specular_surfaces(app.scene())) return;
+    if (!plan.specular_cones.used) return;
     app.pass("specular cones", [&] {
         light_.emitters().bind_emission();
         specular_ = &specular_cones_.run(g_buffer_, light_.volumes(), params_.cones, params_.specular, sample_,
@@ -109,11 +109,6 @@ std::vector<gl::Resource> CameraLight::resources() const
 std::vector<Need> CameraLight::needs(const Scene& source) const
 {
     std::vector<Need> all = surface_needs(source);
-    for (const Need& need : direct_lighting_.needs(params_.shadows)) all.push_back(need);
-    const bool indirect = light_.has_indirect();
-    const std::string direct_alone = "bounces=0: direct light alone";
-    all.push_back({"diffuse cones", indirect, indirect ? "for indirect light" : direct_alone});
-    all.push_back(indirect ? specular_cone_need(source) : Need{"specular cones", false, direct_alone});
     all.push_back(sky_need(params_.cones.sky));
     return all;
 }

@@ -46,6 +46,10 @@ try {
     BackgroundTracer path_tracer(app.scene(), tracer_threads(headless));
     SideBySide side_by_side(app.shaders());
     ToneMapPass tone_map(app.shaders());
+    const SceneTraits traits = traits_of(app.scene());
+    const auto make_plan = [&] {
+        return plan_light(traits, scene_params.voxels.shading, scene_params.bounces, camera_params.shadows);
+    };
 
     app.each_frame([&] {
         const Show show = what_to_show(app.view(), reference_params, headless);
@@ -65,9 +69,10 @@ try {
         // The frame of chapter 12; what it is made of is made in the first frame, even when cones are not shown yet.
         const gl::Texture* picture = nullptr;
         if (show != Show::reference || app.frame() == 0) {
-            scene_light.run(app, scene, camera_params.cones, asks_shadow_maps(camera_params.shadows));
+            const LightPlan plan = make_plan();
+            scene_light.run(app, scene, camera_params.cones, plan);
             camera_light.see(app, scene);
-            camera_light.gather(app);
+            camera_light.gather(app, plan);
             picture = &camera_light.sum(app);
         }
 
@@ -96,7 +101,8 @@ try {
     for (const auto& part :
          {scene.resources(), scene_light.resources(), camera_light.resources(), side_by_side.resources()})
         app.statistics().add_resources(part);
-    for (const auto& needs : {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene())})
+    for (const auto& needs :
+         {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene()), make_plan().decisions()})
         app.statistics().add_needs(needs);
     app.statistics().add_needs({{"path tracer", path_tracer.newest() != nullptr,
                                  "view " + app.view().name + ", show=" + show_name(Show(reference_params.show))}});

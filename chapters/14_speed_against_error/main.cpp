@@ -51,19 +51,24 @@ try {
     CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
     FetchCounter fetch_counter(app.shaders());
     ToneMapPass tone_map(app.shaders());
+    const SceneTraits traits = traits_of(app.scene());
+    const auto make_plan = [&] {
+        return plan_light(traits, scene_params.voxels.shading, scene_params.bounces, camera_params.shadows);
+    };
     FetchCounts fetches;
 
     app.each_frame([&] {
         // Chapter 12's frame: light in the voxels, surfaces, cones, sum.
-        scene_light.run(app, scene, camera_params.cones, asks_shadow_maps(camera_params.shadows));
+        const LightPlan plan = make_plan();
+        scene_light.run(app, scene, camera_params.cones, plan);
         camera_light.see(app, scene);
-        camera_light.gather(app);
+        camera_light.gather(app, plan);
         const gl::Texture& linear = camera_light.sum(app);
 
         // The same cones once more, to count: outside of every pass, so that no time holds it.
         const bool last = app.frame() + 1 == app.options().frames;
-        if (app.shows("fetches") || (measure_params.count_fetches && last && scene_light.has_indirect())) {
-            fetch_counter.run(scene_light, camera_light, camera_params, has_specular_surfaces(app.scene()));
+        if (app.shows("fetches") || (measure_params.count_fetches && last && plan.diffuse_cones.used)) {
+            fetch_counter.run(scene_light, camera_light, camera_params, plan.specular_cones.used);
             fetches = fetch_counter.counts(camera_light.g_buffer());
         }
         if (app.shows("fetches"))
@@ -90,7 +95,8 @@ try {
     app.statistics().set_counts(counts);
     for (const auto& part : {scene.resources(), scene_light.resources(), camera_light.resources()})
         app.statistics().add_resources(part);
-    for (const auto& needs : {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene())})
+    for (const auto& needs :
+         {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene()), make_plan().decisions()})
         app.statistics().add_needs(needs);
     return app.finish();
 } catch (const std::exception& error) {
