@@ -124,7 +124,9 @@ TEST(MaterialRule, PixelsVoxelsAndPathTracerAgree)
         expect_near(glm::vec3(f), hit.brdf.f0, pixel, what + ", F0 of pixels");
         EXPECT_NEAR(f.a, hit.brdf.f90.x, pixel) << what;
         expect_near(glm::vec3(er), hit.emission, pixel, what + ", emission of pixels");
-        if (!m.unlit) EXPECT_NEAR(er.a * er.a, hit.brdf.alpha, 2e-5f) << what;
+        if (!m.unlit) {
+            EXPECT_NEAR(er.a * er.a, hit.brdf.alpha, 2e-5f) << what;
+        }
 
         // Voxels send both lobes to all sides. The shader's polynomials are within 0.003 of x and 0.0005 of y.
         const shared::VoxelFace& face = faces.at({{2 + 2 * x, 2 + 2 * y, 4}, 5});

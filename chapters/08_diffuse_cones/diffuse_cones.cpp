@@ -29,8 +29,8 @@ void add_parameters(ParameterTable& table, DiffuseConeParams& params)
 
 gl::Defines cone_defines(const ConeParams& params, const LightPyramid& pyramid)
 {
-    gl::Defines defines = pyramid.defines();
-    defines["MARCH"] = params.walk == int(ConeWalk::march) ? "1" : "0";
+    gl::Defines defines = {{"MARCH", params.walk == int(ConeWalk::march) ? "1" : "0"}};
+    defines.merge(pyramid.defines());
     return defines;
 }
 

@@ -41,9 +41,8 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     voxels.faces().bind();
     voxels.pyramid().bind();
     walk.bind();
-    gl::Defines defines = voxels.pyramid().defines();
-    defines["MARCH"] = "0";
-    defines["EMITTERS"] = emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0";
+    gl::Defines defines = {{"MARCH", "0"}, {"EMITTERS", emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0"}};
+    defines.merge(voxels.pyramid().defines());
     defines.merge(emitters.defines());
     const gl::Program& link = link_.with(defines);
     ConeParams rays = cones;

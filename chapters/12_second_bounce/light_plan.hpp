@@ -9,8 +9,8 @@ namespace conebook {
 
 // What a plan has to know of a scene; stays while its materials do.
 struct SceneTraits {
-    bool has_lights = false;                // punctual ones
-    Need specular_cones{"specular cones"};  // whether some surface has a lobe for them, and how many do
+    bool has_lights = false;                           // punctual ones
+    Need specular_cones{"specular cones", false, ""};  // whether some surface has a lobe for them, and how many do
 };
 SceneTraits traits_of(const Scene& scene);
 
