@@ -21,6 +21,30 @@ std::size_t index_of(const std::vector<View>& views, const std::string& name)
     return i;
 }
 
+// Does `work`; what it throws is a fault of the preset and names its file.
+template <typename Work>
+auto of_preset(const std::filesystem::path& preset, Work work)
+{
+    try {
+        return work();
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(preset.string() + ": " + error.what());
+    }
+}
+
+Scene scene_of(const Options& options)
+{
+    Scene scene = load_scene(options.scene);
+    of_preset(options.preset, [&] { place_lights(scene, options.lights); });
+    return scene;
+}
+
+Camera camera_of(const Scene& scene, const Options& options)
+{
+    if (!options.camera_from_preset) return place_camera(scene, options.camera);
+    return of_preset(options.preset, [&] { return place_camera(scene, options.camera); });
+}
+
 // OpenGL's bottom row first to the files' top row first.
 template <typename T>
 void flip_rows(std::vector<T>& texels, int width, int height)
@@ -35,18 +59,18 @@ void flip_rows(std::vector<T>& texels, int width, int height)
 App::App(int argc, char** argv, ProgramInfo info)
     : info_(std::move(info)),
       options_(parse_options(argc, argv, info_)),
-      scene_(load_scene(options_.scene)),
+      scene_(scene_of(options_)),
       context_(options_.headless ? Context::headless(options_.device) : Context::window(info_.name, options_.size)),
       shaders_(options_.root / "shaders"),
       timer_(context_.is_software() ? PassTimer::Clock::cpu_around_finish : PassTimer::Clock::gpu_queries),
-      camera_(choose_camera(scene_, options_.camera)),
+      camera_(camera_of(scene_, options_)),
       size_(options_.size),
       view_index_(index_of(info_.views, options_.view))
 {
     for (const std::string& warning : scene_.warnings)
         std::cerr << options_.scene.filename().string() << ": note: " << warning << "\n";
     statistics_.set_run(info_.name, context_.driver(), size_);
-    statistics_.add_needs({camera_need(scene_, options_.camera)});
+    statistics_.add_needs({camera_need(scene_, options_.camera.index)});
     // The book's conventions for every pass: depth 1 near and 0 far, stored as float without loss.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     if (context_.glfw_window() != nullptr) start_window();
@@ -150,6 +174,9 @@ int App::finish()
     }
     if (!faults.empty()) throw std::runtime_error(faults.front());
     if (!options_.stats.empty()) statistics_.write_json(options_.stats);
+    if (!options_.save_preset.empty())
+        write_preset(options_.save_preset, info_.parameters,
+                     {view().name, choice_of(scene_, options_.camera.index, camera_), options_.lights});
     if (options_.print_stats) std::cout << statistics_.table();
     return EXIT_SUCCESS;
 }

@@ -41,7 +41,7 @@ double parse_number(const std::string& name, const std::string& text)
         used = 0;
     }
     if (text.empty() || used != text.size() || !std::isfinite(value))
-        throw std::runtime_error("--set " + name + "=" + text + ": not a finite number");
+        throw std::runtime_error(name + "=" + text + ": not a finite number");
     return value;
 }
 
@@ -122,11 +122,19 @@ void ParameterTable::set(const std::string& assignment)
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
         throw std::runtime_error("--set " + assignment + ": expected NAME=VALUE");
-    const std::string name = assignment.substr(0, equals), text = assignment.substr(equals + 1);
+    try {
+        set(assignment.substr(0, equals), assignment.substr(equals + 1));
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(std::string("--set ") + error.what());
+    }
+}
+
+void ParameterTable::set(const std::string& name, const std::string& text)
+{
     const auto found = std::find_if(parameters_.begin(), parameters_.end(),
                                     [&](const Parameter& p) { return p.name == name; });
     if (found == parameters_.end())
-        throw std::runtime_error("--set " + name + ": unknown parameter; --list-params names those of this chapter");
+        throw std::runtime_error(name + ": unknown parameter; --list-params names those of this chapter");
 
     if (found->as_bool != nullptr && (text == "on" || text == "true" || text == "off" || text == "false")) {
         *found->as_bool = text == "on" || text == "true";
@@ -139,16 +147,16 @@ void ParameterTable::set(const std::string& assignment)
     }
     const bool out_of_choices = !found->choices.empty();
     if (out_of_choices)
-        throw std::runtime_error("--set " + name + "=" + text + ": must be one of " + found->range_text());
+        throw std::runtime_error(name + "=" + text + ": must be one of " + found->range_text());
     const double value = parse_number(name, text);
     if (value < found->min || value > found->max)
-        throw std::runtime_error("--set " + name + "=" + text + ": out of range " + found->range_text() +
+        throw std::runtime_error(name + "=" + text + ": out of range " + found->range_text() +
                                  (found->unit.empty() ? "" : " " + found->unit));
     if (!found->values.empty() && std::find(found->values.begin(), found->values.end(), value) == found->values.end())
-        throw std::runtime_error("--set " + name + "=" + text + ": must be one of " + found->range_text());
+        throw std::runtime_error(name + "=" + text + ": must be one of " + found->range_text());
     const bool whole = found->as_int != nullptr || found->as_bool != nullptr;
     if (whole && value != std::floor(value))
-        throw std::runtime_error("--set " + name + "=" + text + ": must be a whole number");
+        throw std::runtime_error(name + "=" + text + ": must be a whole number");
     found->set(value);
 }
 

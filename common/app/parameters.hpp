@@ -31,8 +31,11 @@ public:
     void add(const std::string& name, bool& field, const std::string& help);
     void add(const std::string& name, int& field, std::vector<std::string> choices, const std::string& help);
 
-    // "NAME=VALUE". Throws std::runtime_error for an unknown name, a value that is no finite number or out of range.
+    // "NAME=VALUE" of the command line. Throws as the other one does, with --set before the name.
     void set(const std::string& assignment);
+    // Throws std::runtime_error that begins with the name when no parameter is called so, and when the value is no finite
+    // number, out of range or none of the choices.
+    void set(const std::string& name, const std::string& text);
     const std::vector<Parameter>& all() const { return parameters_; }
     std::vector<double> values() const;  // of all, in their order
     void set_values(const std::vector<double>& values);  // the same, as values() gives them

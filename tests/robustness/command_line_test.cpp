@@ -122,7 +122,7 @@ TEST_P(Program, SaysWhatItCanDo)
     EXPECT_NE(parameters.output.find("exposure "), std::string::npos) << parameters.output;
     EXPECT_EQ(help.code, 0);
     for (const char* option : {"--scene", "--headless", "--size", "--output", "--frames", "--view", "--camera",
-                               "--stats", "--set", "--list-views", "--list-params"})
+                               "--stats", "--set", "--preset", "--save-preset", "--list-views", "--list-params"})
         EXPECT_NE(help.output.find(option), std::string::npos) << option;
 }
 
