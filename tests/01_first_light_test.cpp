@@ -26,7 +26,7 @@ ImageF render(const Scene& scene, const Camera& camera, glm::ivec2 size = {kSize
 {
     ForwardPass pass(test_gl().shaders);  // the context comes first
     const GpuScene gpu_scene(scene);
-    return read_picture(pass.run(gpu_scene, camera_data(camera, size), size, output));
+    return read_picture(pass.run(gpu_scene, camera_data(camera, size, scene.bounds), size, output));
 }
 
 // A floor y = 0 that is larger than every picture of it.

@@ -21,7 +21,7 @@ public:
     Deferred(const Scene& scene, const Camera& camera, glm::ivec2 size)
         : g_buffer_(test_gl().shaders, size), scene_(scene), view_(test_gl().shaders)
     {
-        g_buffer_.draw(scene_, camera_data(camera, size));
+        g_buffer_.draw(scene_, camera_data(camera, size, scene.bounds));
     }
     ImageF view(const std::string& name) { return read_picture(*view_.run(g_buffer_, name)); }
     const GBuffer& g_buffer() const { return g_buffer_; }
@@ -54,14 +54,14 @@ Ray pixel_ray(const Camera& camera, glm::ivec2 size, int x, int y)
 // 16 roundings for the depth, the inverse projection and the rotation.
 double position_tolerance_m(double pixel_m, double coordinate_m) { return pixel_m / 256.0 + 1.0e-6 * coordinate_m; }
 
-void expect_positions(const Camera& camera, glm::dvec3 plane_point, glm::dvec3 plane_normal)
+// A square plane of 2 * extent m is all that is in the scene: however far away the camera is, coordinates are no larger.
+void expect_positions(const Camera& camera, glm::dvec3 plane_point, glm::dvec3 plane_normal, float extent)
 {
     const glm::vec3 n(plane_normal), p(plane_point);
     const glm::vec3 u = glm::normalize(std::abs(n.x) < 0.9f ? glm::cross(n, glm::vec3(1, 0, 0))
                                                             : glm::cross(n, glm::vec3(0, 1, 0)));
     const glm::vec3 v = glm::cross(n, u);
     const double distance = glm::length(plane_point - glm::dvec3(camera.world_from_camera[3]));
-    const float extent = float(20.0 * distance);
     SceneBuilder b;
     Material m = lambert(0.5f);
     m.double_sided = true;
@@ -83,17 +83,19 @@ void expect_positions(const Camera& camera, glm::dvec3 plane_point, glm::dvec3 p
             const double pixel_m = camera.orthographic
                                        ? 2.0 * camera.y_mag / size.y
                                        : 2.0 * std::tan(0.5 * double(camera.y_fov)) / size.y * t;
-            const double coordinate_m = glm::length(t * ray.direction) + glm::length(ray.origin);
+            const double coordinate_m = std::min(glm::length(t * ray.direction) + glm::length(ray.origin),
+                                                 2.0 * std::sqrt(2.0) * extent + glm::length(plane_point));
             const double scale = position_tolerance_m(pixel_m, coordinate_m) / sine_to_plane;
-            if (t * glm::length(ray.direction) > 5.0 * distance) continue;  // beyond the quad
+            if (glm::length(truth - plane_point) > 0.95 * extent) continue;  // beyond the quad
             ASSERT_EQ(positions.at(x, y).a, 1.0f);
             worst = std::max(worst, glm::length(glm::dvec3(positions.at(x, y)) - truth) / scale);
             const glm::dvec3 axis = -glm::dvec3(camera.world_from_camera[2]);
-            worst = std::max(worst, std::abs(depths.at(x, y).r - glm::dot(truth - ray.origin, axis)) / scale);
+            const double depth = glm::dot(truth - ray.origin, axis);
+            worst = std::max(worst, std::abs(depths.at(x, y).r - depth) / (scale + 1.0e-6 * depth));
             ++compared;
         }
     EXPECT_GT(compared, 200);
-    EXPECT_LT(worst, 1.0) << "at " << distance << " m";
+    EXPECT_LT(worst, 1.0) << "at " << distance << " m, extent " << extent << " m";
 }
 
 TEST(GBuffer, PositionFromDepthPerspective)
@@ -103,17 +105,78 @@ TEST(GBuffer, PositionFromDepthPerspective)
                                         glm::normalize(glm::dvec3(-0.2, 0.9, 0.3))}) {
             const glm::vec3 eye(0.2f, 0.1f, 0.3f);
             const glm::vec3 forward = glm::normalize(glm::vec3(0.1f, -0.2f, -1.0f));
-            expect_positions(look_at(eye, eye + forward, 0.9f), glm::dvec3(eye) + distance * glm::dvec3(forward), normal);
+            expect_positions(look_at(eye, eye + forward, 0.9f), glm::dvec3(eye) + distance * glm::dvec3(forward), normal,
+                             float(5.0 * distance));
         }
+}
+
+// A telescope: the plane fills the picture and more, and the error is to be small against it, not against the distance.
+TEST(GBuffer, PositionFromDepthFarAway)
+{
+    for (const double distance : {30.0, 1.0e3, 1.0e5, 1.0e7})
+        for (const float size : {0.02f, 2.0f, 300.0f})
+            for (const glm::vec3 towards_eye : {glm::vec3(0, 0, 1), glm::normalize(glm::vec3(0.2f, 0.5f, 1.0f))}) {
+                // The axes of a camera are floats, and so it may look past a small thing far away; not along z.
+                if (distance < 3.0 * size || (towards_eye.x > 0.0f && distance > 1.0e6 * size)) continue;
+                for (const double zoom : {1.0, 1.0e4}) {  // until pixels are no larger than the error of a float
+                    Camera camera = look_at(float(distance) * towards_eye, {0, 0, 0}, float(0.8 * size / distance / zoom));
+                    expect_positions(camera, glm::dvec3(0.0), glm::normalize(glm::dvec3(0.3, 0.4, 1.0)), 0.5f * size);
+                    camera.z_near = 10.0f;
+                    camera.z_far = float(2.0 * distance);
+                    expect_positions(camera, glm::dvec3(0.0), glm::normalize(glm::dvec3(-0.8, 0.1, 0.5)), 0.5f * size);
+                }
+            }
 }
 
 TEST(GBuffer, PositionFromDepthOrthographic)
 {
-    for (const glm::dvec3 normal : {glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(0.6, 0.3, 0.5))}) {
-        Camera camera = look_at_orthographic({0.2f, 0.1f, 3.0f}, {0.1f, 0.3f, 0.0f}, 1.5f, 1.0f);
-        camera.z_far = 20.0f;
-        expect_positions(camera, {0.15, 0.2, 1.5}, normal);
-    }
+    for (const glm::dvec3 normal : {glm::dvec3(0, 0, 1), glm::normalize(glm::dvec3(0.6, 0.3, 0.5))})
+        for (const float z_far : {0.0f, 20.0f, 8.0e3f, 1.0e7f})
+            for (const float distance : {3.0f, 1.0e3f, 1.0e6f}) {
+                if (z_far > 0.0f && z_far < 2.0f * distance) continue;
+                Camera camera = look_at_orthographic(distance * glm::normalize(glm::vec3(0.2f, 0.1f, 1.0f)), {0, 0, 0}, 1.5f, 1);
+                camera.z_near = 0.0f;
+                camera.z_far = z_far;
+                expect_positions(camera, {0.15, 0.2, 0.0}, normal, 3.0f);
+            }
+}
+
+// glTF 2.0, 3.10.2: what is nearer than znear or beyond zfar is not seen; a perspective without zfar has no end.
+TEST(GBuffer, NearAndFarPlanesClip)
+{
+    constexpr glm::ivec2 kSize(20, 4);
+    for (const bool orthographic : {false, true})
+        for (const float metres_per_unit : {1e-3f, 1.0f, 5e4f}) {
+            // Nine walls at 1, 2 ... 9 units, each a tenth of the picture wide and beside the one before.
+            SceneBuilder b;
+            const int grey = b.material(lambert(0.5f));
+            const float u = metres_per_unit;
+            const glm::vec3 axis = glm::normalize(glm::vec3(0.3f, -0.4f, -1.0f));
+            Camera camera = orthographic ? look_at_orthographic(glm::vec3(0.0f), axis, u, u) : look_at(glm::vec3(0.0f), axis, 0.9f);
+            const glm::vec3 right(camera.world_from_camera[0]), up(camera.world_from_camera[1]);
+            const float tangent = std::tan(0.45f), aspect = float(kSize.x) / float(kSize.y);
+            for (int wall = 1; wall <= 9; ++wall) {
+                const float half = orthographic ? u : float(wall) * u * tangent, width = orthographic ? u : half * aspect;
+                const glm::vec3 left = float(wall) * u * axis + (float(wall - 1) / 5.0f - 1.0f) * width * right - half * up;
+                b.quad(left, width / 5.0f * right, 2.0f * half * up, grey);
+            }
+            const Scene scene = b.build();
+            for (const auto& [z_near, z_far] : {std::pair(0.5f, 0.0f), {0.5f, 4.5f}, {2.5f, 0.0f}, {3.5f, 7.25f}, {9.5f, 12.0f}, {0.2f, 0.4f}}) {
+                camera.z_near = z_near * u;
+                camera.z_far = z_far * u;
+                Deferred deferred(scene, camera, kSize);
+                ForwardPass forward(test_gl().shaders);
+                const ImageF depths = deferred.view("depth"),
+                             drawn = read_picture(forward.run(deferred.scene(), camera_data(camera, kSize, scene.bounds),
+                                                              kSize, ForwardOutput::depth));
+                for (int wall = 1; wall <= 9; ++wall) {
+                    const bool seen = float(wall) > z_near && (z_far == 0.0f || float(wall) < z_far);
+                    EXPECT_EQ(depths.at(2 * wall - 1, 2).a, seen ? 1.0f : 0.0f) << wall << " in " << z_near << ", " << z_far;
+                    EXPECT_EQ(drawn.at(2 * wall - 1, 2).a, seen ? 1.0f : 0.0f) << wall << " in " << z_near << ", " << z_far;
+                    EXPECT_NEAR(depths.at(2 * wall - 1, 2).r, seen ? float(wall) * u : 0.0f, 1e-5f * u);
+                }
+            }
+        }
 }
 
 // Half a step h = 0.5 / 32767 in both numbers moves the point of the octahedron by (h, h, -2h), sqrt(6) h, and in the
@@ -251,7 +314,7 @@ TEST_P(SamePicture, AsForward)
     Deferred deferred(scene, camera, size);
     DirectLightingPass lighting(test_gl().shaders, Shadows::none);
     ForwardPass forward(test_gl().shaders);
-    const auto a = shown(forward.run(deferred.scene(), camera_data(camera, size), size, ForwardOutput::radiance));
+    const auto a = shown(forward.run(deferred.scene(), camera_data(camera, size, scene.bounds), size, ForwardOutput::radiance));
     const auto b = shown(lighting.run(deferred.g_buffer(), deferred.scene(), LightingOutput::direct_and_emission));
     int largest = 0, lit = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {

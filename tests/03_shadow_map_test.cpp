@@ -40,7 +40,7 @@ Shaded shade(const Scene& scene, const Camera& camera, const ShadowMapParams& pa
     gl::Shaders& shaders = test_gl().shaders;
     const GpuScene gpu_scene(scene);
     GBuffer g_buffer(shaders, kPicture);
-    g_buffer.draw(gpu_scene, camera_data(camera, kPicture));
+    g_buffer.draw(gpu_scene, camera_data(camera, kPicture, scene.bounds));
     ShadowMaps maps(shaders, gpu_scene, params);
     maps.draw(gpu_scene);
     DirectLightingPass with(shaders, Shadows::maps), without(shaders, Shadows::none);
@@ -393,7 +393,7 @@ TEST(ShadowMap, ManyLightsEachHaveTheirOwn)
     GBuffer g_buffer(test_gl().shaders, kPicture);
     const auto direct = [&](const Scene& s) {
         const GpuScene gpu(s);
-        g_buffer.draw(gpu, camera_data(cameras({1, 1, 1})[0], kPicture));
+        g_buffer.draw(gpu, camera_data(cameras({1, 1, 1})[0], kPicture, s.bounds));
         ShadowMaps own(test_gl().shaders, gpu, map_params());
         own.draw(gpu);
         DirectLightingPass lighting(test_gl().shaders, Shadows::maps);

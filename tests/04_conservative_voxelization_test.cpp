@@ -167,7 +167,7 @@ TEST(VoxelView, CubesHaveTheirSize)
     pipeline.voxelize();
     VoxelViewPass view(test_gl().shaders);
     const Camera camera = look_at_orthographic({8, 8, 40}, {8, 8, 0}, 8.0f, 8.0f);
-    const gl::Buffer camera_buffer("camera", std::vector{camera_data(camera, {256, 256})});
+    const gl::Buffer camera_buffer("camera", std::vector{camera_data(camera, {256, 256}, unit_bounds(16))});
     for (const int level : {0, 1, 2}) {
         VoxelViewParams params;
         params.level = level;

@@ -163,7 +163,7 @@ TEST(FaceView, ShowsTheFaceTowardsTheCamera)
     const FaceQuantity albedo{&pipeline.voxel_faces().faces(), int(sizeof(shared::VoxelFace) / sizeof(glm::vec4)), 0, 0, nullptr};
     for (const float side : {1.0f, -1.0f}) {
         const Camera camera = look_at_orthographic({8, 8, 8 + side * 30}, {8, 8, 8}, 4.0f, 4.0f);
-        const gl::Buffer camera_buffer("camera", std::vector{camera_data(camera, {16, 16})});
+        const gl::Buffer camera_buffer("camera", std::vector{camera_data(camera, {16, 16}, unit_bounds(16))});
         const ImageF image = read_picture(view.run(pipeline.grid(), pipeline.voxelizer().occupancy(), pipeline.voxel_faces(),
                                                    albedo, camera_buffer, {16, 16}));
         for (const glm::vec4& pixel : image.pixels) {

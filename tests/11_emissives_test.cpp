@@ -16,7 +16,7 @@ namespace {
 ConeParams many_cones()
 {
     ConeParams params;
-    params.cones = 3;  // 16, in 16 interleaved sets
+    params.cones = 16;  // in 16 interleaved sets
     return params;
 }
 

@@ -308,7 +308,7 @@ TEST(GroundTruth, AWindowShowsFramesWhileTheReferenceRefines)
 {
     if (std::system("command -v xvfb-run > /dev/null") != 0) GTEST_SKIP() << "xvfb-run is not installed (package xvfb)";
     const TemporaryFolder folder;
-    const std::string arguments = "--size 320x180 --set voxels=16 bounces=1 show=split spp=1 --output '";
+    const std::string arguments = "--size 320x180 --set voxels=16 bounces=1 show=split spp=1 accumulate=off --output '";
     const std::string window = (folder / "window.png").string(), headless = (folder / "headless.png").string();
     const std::string stats = (folder / "stats.json").string();
     const std::string command = "xvfb-run -a -s '-screen 0 1280x1024x24' '" + program_folder() +

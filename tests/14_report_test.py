@@ -19,13 +19,13 @@ TOOLS = ROOT / "tools"
 sys.path.insert(0, str(TOOLS))
 from report_analysis import Report, fit_power, pareto_front  # noqa: E402
 from report_answers import Answers  # noqa: E402
-from report_measure import parameters_by_name, times_of  # noqa: E402
+from report_measure import Failed, parameters_by_name, timed_trace, times_of  # noqa: E402
 from report_plan import CORE_SCENES, GRID, SWEEPS, fitting, make_plan, rows_of  # noqa: E402
 
 BIN = None
-DEFAULTS = {"voxels": "128", "cones": "6", "interleave": "on", "aperture": "0", "step": "1", "start_offset": "0.75",
-            "directions": "per_face", "format": "rgba16f", "bounces": "2", "shadows": "map", "light_radius": "0.05",
-            "light_angle": "0.53"}
+DEFAULTS = {"voxels": "128", "cones": "16", "interleave": "on", "aperture": "0", "step": "1", "start_offset": "0.75", "walk": "leap",
+            "gather_scale": "2", "links": "5", "directions": "per_face", "format": "rgba16f", "bounces": "-1", "shadows": "map",
+            "light_radius": "0.05", "light_angle": "0.53"}
 
 
 class ParetoFront(unittest.TestCase):
@@ -60,16 +60,19 @@ class PlanOfRows(unittest.TestCase):
     def test_a_setting_that_is_the_default_is_the_baseline(self):
         rows = rows_of("cornell_box", SWEEPS, [], DEFAULTS)
         self.assertEqual([r.setting for r in rows].count("baseline"), 1)
-        self.assertEqual(set(rows[0].sweeps), set(SWEEPS) - {"aperture"})  # whose default is no value of the sweep
+        self.assertEqual(set(rows[0].sweeps), set(SWEEPS) - {"step", "directions"})  # which are of cones that march
+        march = next(r for r in rows if r.setting == "walk=march")
+        self.assertEqual(set(march.sweeps), {"walk", "step", "directions"})
         self.assertEqual(len({r.id for r in rows}), len(rows))
-        moved = rows_of("cornell_box", SWEEPS, [], {**DEFAULTS, "step": "0.5", "voxels": "100"})
-        self.assertIn("step=1", [r.setting for r in moved])
+        moved = rows_of("cornell_box", SWEEPS, [], {**DEFAULTS, "links": "9", "voxels": "100"})
+        self.assertIn("links=5", [r.setting for r in moved])
         self.assertIn("voxels=128", [r.setting for r in moved])
 
     def test_only_parts_that_can_change_are_compared(self):
         rows = {r.setting: r for r in rows_of("cornell_box", SWEEPS, [], DEFAULTS)}
-        self.assertNotIn("direct", rows["step=2"].parts())
-        self.assertEqual(rows["shadows=volume"].parts(), ["direct", "final"])
+        self.assertNotIn("direct", rows["links=1"].parts())
+        self.assertEqual(rows["shadows=volume"].parts(), ["final", "direct"])
+        self.assertEqual(rows["gather_scale=4"].parts(), ["final", "indirect_diffuse"])
 
     def test_every_scene_and_sweep_is_there(self):
         plan = make_plan(False, None, DEFAULTS, None)
@@ -86,7 +89,7 @@ class PlanOfRows(unittest.TestCase):
         self.assertLessEqual(sum(r.expected_seconds(3, 1000.0) for r in kept), 0.8 * total)
         self.assertEqual({r.id for r in kept} | {r.id for r in left_out}, {r.id for r in rows})
         self.assertTrue(all(r.sweeps == ["grid"] for r in left_out[:2]))
-        self.assertTrue({"baseline", "voxels=256", "bounces=-1"} <= {r.setting for r in kept})
+        self.assertTrue({"baseline", "walk=march", "bounces=2"} <= {r.setting for r in kept})
         self.assertEqual([r.setting for r in fitting(rows, 0.0, 3, 1000.0)[0]], ["baseline"])
 
     def test_an_unknown_scene_is_refused(self):
@@ -96,31 +99,48 @@ class PlanOfRows(unittest.TestCase):
 
 class ReadingPrograms(unittest.TestCase):
     def test_passes_go_where_they_belong(self):
-        stats = {"passes": [{"name": n, "min_ms": ms} for n, ms in
-                            [("shadow maps", 1), ("voxelize", 2), ("average", 4), ("light pyramid", 8), ("diffuse cones", 16)]]}
+        stats = {"passes": [{"name": n, "scope": s, "min_ms": ms} for n, s, ms in
+                            [("shadow maps", "light", 1), ("voxelize", "scene", 2), ("links", "scene", 4), ("light pyramid", "light", 8),
+                             ("diffuse cones", "camera", 16)]]}
         times = times_of(stats)
         self.assertEqual([times[k] for k in ("ms_scene", "ms_light", "ms_camera", "ms_frame", "ms_total")], [6, 9, 16, 25, 31])
+
+    def test_times_of_a_trace(self):
+        self.assertEqual(timed_trace("a.exr: final, shared, 8x8, 12 samples per pixel, -1 bounces, 0.500 s for the samples, 0.526 s in all\n"),
+                         (12, 0.5, 0.526))
+        with self.assertRaises(Failed):
+            timed_trace("nothing")
 
     def test_defaults(self):
         self.assertEqual(parameters_by_name("voxels   128   4 .. 512  voxels\nstep  1  0 .. 4  -\n"), {"voxels": "128", "step": "1"})
 
 
-def synthetic(settings, traced=()):
-    """Data of one scene: {setting: (ms, error)}; the first is the baseline."""
-    base = next(iter(settings.values()))[0]
-    rows = [{"id": f"box/{name}", "kind": "cones", "scene": "box", "setting": name, "sweeps": ["step"], "sweep_values": {"step": name},
-             "parameters": {"voxels": "64"}, "ms_steady": ms, "ms_frame": ms, "ms_total": ms + 1, "relative_time": ms / base,
-             "fetches": 10, "bytes": 1e6, "errors": {"final_all": {"smape": e}, "final_all_pixels": {"smape": e}}}
-            for name, (ms, e) in settings.items()]
-    rows += [{"id": f"box/traced {i}", "kind": "path_tracer", "scene": "box", "equal_to": f"box/{to}", "spp": 1, "ms_total": 1,
-              "errors": {"final_all": {"smape": e}, "final_all_pixels": {"smape": 2 * e}}} for i, (to, e) in enumerate(traced)]
-    return {"rows": rows, "core_scenes": ["box"], "sweep_order": {"step": list(settings)}, "machine": {"driver": "llvmpipe"},
-            "baseline": {}, "noisy": []}
+def measures(smape, noisy=False):
+    return {"smape": smape, "signed_ratio": 1.0, "p95": 0.1, "noise": 0.05 * smape, "noisy": noisy}
+
+
+def synthetic(scenes, traced=()):
+    """Data: {scene: {setting: (ms, error)}}; the first setting is the baseline. `traced`: of the first scene's baseline,
+    (factor, share, error)."""
+    rows = []
+    for scene, settings in scenes.items():
+        base = next(iter(settings.values()))[0]
+        rows += [{"id": f"{scene}/{name}", "kind": "cones", "scene": scene, "size": "8x8", "setting": name, "sweeps": ["links"],
+                  "sweep_values": {"links": name}, "parameters": {"voxels": "64"}, "ms_steady": ms, "ms_frame": ms, "ms_scene": 1,
+                  "ms_total": ms + 1, "relative_time": ms / base, "steps": 10, "fetches": 5, "bytes": 1e6,
+                  "errors": {"final": measures(e), "final_pixels": measures(e)}} for name, (ms, e) in settings.items()]
+    scene = next(iter(scenes))
+    rows += [{"id": f"{scene}/traced {i}", "kind": "path_tracer", "scene": scene, "size": "8x8", "equal_to": f"{scene}/baseline",
+              "factor": f, "share": share, "spp": 1, "ms_total": 1, "errors": {"final": measures(e, True), "final_pixels": measures(2 * e)}}
+             for i, (f, share, e) in enumerate(traced)]
+    names = list(dict.fromkeys(name for settings in scenes.values() for name in settings))
+    return {"rows": rows, "core_scenes": list(scenes), "sweep_order": {"links": names}, "machine": {"driver": "llvmpipe"},
+            "baseline": {}, "size": "8x8"}
 
 
 class AnswersOfKnownData(unittest.TestCase):
-    DATA = synthetic({"baseline": (100, 0.20), "a=1": (50, 0.40), "b=1": (200, 0.21), "c=1": (150, 0.09), "d=1": (80, 0.205)},
-                     [("baseline", 0.1), ("c=1", 0.3)])
+    DATA = synthetic({"box": {"baseline": (100, 0.20), "a=1": (50, 0.40), "b=1": (200, 0.21), "c=1": (150, 0.09), "d=1": (80, 0.205)}},
+                     [(1, False, 0.3), (1, True, 0.1), (4, False, 0.15), (4, True, 0.05)])
 
     def test_front_and_budgets(self):
         report = Report(self.DATA)
@@ -140,11 +160,31 @@ class AnswersOfKnownData(unittest.TestCase):
         self.assertIn("`c=1`", answers.budget(1000))
         self.assertIn("2.00 times the time", answers.half_the_error())
         self.assertIn("are on the front", answers.defaults_on_front())
-        self.assertIn("less error in 1 of 2 rows", answers.equal_time())
         self.assertIn("`b=1`", answers.not_worth())
         self.assertNotIn("`d=1`", answers.not_worth())
-        worse = Answers(synthetic({"baseline": (100, 0.2), "a=1": (90, 0.1)}))
+        worse = Answers(synthetic({"box": {"baseline": (100, 0.2), "a=1": (90, 0.1)}}))
         self.assertIn("not on the front", worse.defaults_on_front())
+
+    def test_the_path_tracer_gets_what_is_its_due(self):
+        said = Answers(self.DATA).conclusion_path_tracer()
+        self.assertIn("in 1 of 1 cases, and in 0 of 1 when", said)
+        self.assertIn("it is 0 and 0", said)
+        self.assertIn("2.00 to 2.00 times its error", said)
+
+    def test_noise_is_said(self):
+        answers = Answers(self.DATA)
+        self.assertIn("In 4 of 9 comparisons", answers.noise())
+        self.assertIn("0.300†", answers.path_tracer_table())
+        self.assertNotIn("0.200†", answers.path_tracer_table())
+
+    def test_a_row_of_easy_scenes_does_not_look_better(self):
+        # `n=9` is no better than the baseline, and only the easy scene has it: the mean of the errors alone would fall by half.
+        answers = Answers(synthetic({"hard": {"baseline": (100, 0.4), "n=1": (50, 0.8)},
+                                     "easy": {"baseline": (10, 0.1), "n=1": (5, 0.1), "n=9": (20, 0.1)}}))
+        lines = {line.split("|")[1].strip(): [c.strip() for c in line.split("|")[2:-1]]
+                 for line in answers.sweep_table("links").splitlines() if line.startswith("| ")}
+        self.assertEqual(lines["n=9"][:2] + lines["n=9"][5:], ["1", "2.00", "1.00", "1.00"])
+        self.assertEqual(lines["n=1"][:2] + lines["n=1"][5:], ["2", "0.50", "1.41", "2.00"])
 
 
 class Page(unittest.TestCase):
@@ -167,7 +207,7 @@ class Page(unittest.TestCase):
 
     def test_changed_data_are_found(self):
         data = json.loads(self.data.read_text())
-        next(r for r in data["rows"] if r["kind"] == "cones")["errors"]["final_all"]["smape"] += 0.01
+        next(r for r in data["rows"] if r["kind"] == "cones")["errors"]["final"]["smape"] += 0.01
         self.data.write_text(json.dumps(data))
         code, said = self.check()
         self.assertEqual(code, 1)
@@ -223,17 +263,20 @@ class QuickRun(unittest.TestCase):
             self.assertGreater(row["ms_total"], 0.0, row["id"])
             self.assertIn("./run", row["command"])
             if row["kind"] == "cones":
-                self.assertTrue(0.0 < row["errors"]["final_all"]["smape"] < 1.0, row["id"])
-                self.assertEqual(row["fetches"] > 0.0, row["parameters"]["bounces"] != "0", row["id"])
-                self.assertEqual(row["errors"]["indirect_diffuse"] is None, row["parameters"]["bounces"] == "0", row["id"])
+                self.assertTrue(0.0 < row["errors"]["final"]["smape"] < 1.0, row["id"])
+                self.assertEqual(row["steps"] + row["fetches"] > 0.0, row["parameters"]["bounces"] != "0", row["id"])
+                self.assertEqual(set(row["scopes"].values()), {"scene", "light", "camera"}, row["id"])
         # What a report must show, whatever the machine: light that is left out is an error.
         report = Report(data)
         for scene in report.scenes:
             none, some = report.row(scene, "bounces=0"), report.row(scene)
-            self.assertGreater(none["errors"]["final_all"]["smape"], 1.5 * some["errors"]["final_all"]["smape"])
-            self.assertLess(none["errors"]["final_all"]["signed_ratio"], some["errors"]["final_all"]["signed_ratio"])
+            self.assertGreater(none["errors"]["final"]["smape"], 1.5 * some["errors"]["final"]["smape"])
+            self.assertLess(none["errors"]["final"]["signed_ratio"], some["errors"]["final"]["signed_ratio"])
+        # Each scene and the large row against the path tracer: twice the time classes, alone and sharing.
+        self.assertEqual([len(t) for _, t in report.against_path_tracer()], [4] * (len(report.scenes) + 1))
+        self.assertTrue(data["published"])
         for name in dir(Answers):
-            if name in ("budget", "sweep_table", "command") or name.startswith("_"):
+            if name in ("budget", "sweep_table", "sweep_figure", "command") or name.startswith("_"):
                 continue
             getattr(Answers(data), name)()  # every sentence can be made of these data
 

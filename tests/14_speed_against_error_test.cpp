@@ -1,4 +1,4 @@
-// Chapter 14: counted fetches against a march on the CPU, what the formats of the pyramids may cost, and what the
+// Chapter 14: counted fetches against a walk on the CPU, what the formats of the pyramids may cost, and what the
 // program writes. The report's own tests: 14_report_test.py.
 #include <algorithm>
 #include <cmath>
@@ -7,121 +7,105 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "11_emissives/emitters.hpp"
-#include "14_speed_against_error/fetch_counter.hpp"
-#include "cone_pipeline.hpp"
+#include "09_specular_cones/specular_cones.hpp"
 #include "lit_scene.hpp"
 #include "program.hpp"
+#include "robustness/gltf_builder.hpp"
 #include "temporary_folder.hpp"
 #include "voxel_pipeline.hpp"
+#include "walk_oracle.hpp"
 
 namespace conebook {
 namespace {
 
 // --- Fetches ---
 
-// Steps of a cone through nothing (shaders/common/cone.glsl): as long as it is wide, at least a voxel, until `end`.
-int steps_of(double end, double tan_half, double step_factor)
-{
-    int steps = 0;
-    for (double t = 0.0; t < end; ++steps)
-        t += std::min(std::max(2.0 * t * tan_half, 1.0) * step_factor, end - t + 1e-3);
-    return steps;
-}
-
 // A wide floor seen from straight above, with nothing over it but a scrap in a corner that gives the bounds their
 // height: every cone leaves through the top, and meets nothing.
-class EmptyGrid {
-public:
-    EmptyGrid(float roughness, float height_m) : lit_(make_scene(roughness, height_m), 96) {}
+std::filesystem::path write_open_floor(const std::filesystem::path& folder, double roughness, float height_m)
+{
+    test::GltfBuilder gltf;
+    const auto add = [&](const std::vector<float>& corners, int material) {
+        const int position = gltf.add_floats(corners, 3);
+        const int mesh = gltf.add_mesh({{"attributes", {{"POSITION", position}}}, {"material", material}});
+        gltf.add_node({{"mesh", mesh}});
+    };
+    for (const double rough : {roughness, 1.0})
+        gltf.append("materials", {{"pbrMetallicRoughness", {{"metallicFactor", 1.0}, {"roughnessFactor", rough}}}});
+    add({-6, 0, 6, 6, 0, 6, 6, 0, -6, -6, 0, 6, 6, 0, -6, -6, 0, -6}, 0);
+    add({5.9f, height_m, 6, 6, height_m, 6, 6, height_m, 5.9f}, 1);
+    gltf.append("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.0017}, {"znear", 0.01}}}});
+    const double half_turn = std::sqrt(0.5);  // looks down
+    gltf.add_node({{"camera", 0}, {"translation", {0.03, 0.8, 0.03}}, {"rotation", {-half_turn, 0.0, 0.0, half_turn}}});
+    gltf.root["scenes"][0]["nodes"] = {0, 1, 2};
+    return test::write_file(folder / "open_floor.glb", gltf.glb());
+}
 
-    FetchCounts count(const LitPixelParams& params, LightFormat format = LightFormat::rgba16f)
+// The walk volume of a file, and how many of its texels a ray looks at on its way through nothing.
+class OpenFloor {
+public:
+    OpenFloor(const std::filesystem::path& file, int voxels) : lit_(load_scene(file), voxels), walk_(test_gl().shaders)
     {
-        gl::Shaders& shaders = test_gl().shaders;
-        PyramidParams pyramid_params;
-        pyramid_params.format = int(format);
-        LightPyramid pyramid(shaders, lit_.grid, pyramid_params);
-        pyramid.prepare(lit_.grid, lit_.faces);
-        pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance());
-        GBuffer g_buffer(shaders, {8, 8});
-        g_buffer.draw(lit_.scene, camera_data(at_point({0.03f, 0.8f, 0.03f}, {0.03f, 0.0f, 0.03f}), g_buffer.size()));
-        const SpecularCones specular(shaders);
-        const Emitters emitters(shaders, {}, lit_.grid, lit_.voxelizer, {});
-        FetchCounter counter(shaders, emitters.are_apart());
-        counter.run(g_buffer, lit_.grid, pyramid, emitters, DiffuseConeUniforms(params.cones), &specular, params);
-        return counter.counts(g_buffer);
+        walk_.run(lit_.grid, lit_.faces);
+        cells_ = WalkCells(walk_);
     }
 
-    // From where cones with this offset start to the top of the bounds, in voxels along the normal.
-    double height(double offset) const
+    // From above the floor's voxels by `offset`, in double precision; one more to see whether the bounds are closed.
+    int texels(double offset, const glm::dvec3& direction) const
     {
-        const double floor_y = (0.0 - double(lit_.grid.data().origin.y)) / double(lit_.grid.data().origin.w);
-        const double voxel_middle = std::floor(floor_y + 0.01) + 0.5;
-        return double(lit_.grid.data().content_max.y) - (voxel_middle + offset);
+        const shared::GridData& grid = lit_.grid.data();
+        const glm::dvec3 floor_point = (glm::dvec3(0.03, 0.0, 0.03) - glm::dvec3(grid.origin)) / double(grid.origin.w);
+        const glm::dvec3 start(floor_point.x, std::floor(floor_point.y + 0.01) + 0.5 + offset, floor_point.z);
+        return cells_.texels(start, direction, cells_.exit_distance(grid, start, direction) - 1e-3) + 1;
     }
 
 private:
-    static Scene make_scene(float roughness, float height_m)
-    {
-        SceneBuilder b;
-        b.quad({-6, 0, 6}, {12, 0, 0}, {0, 0, -12}, b.material(metal(glm::vec3(0.9f), roughness)));
-        b.quad({5.9f, height_m, 6}, {0.1f, 0, 0}, {0, 0, -0.1f}, b.material(lambert(0.5f)));
-        b.point_light({0, 1, 0}, glm::vec3(1.0f));
-        return b.build();
-    }
     LitScene lit_;
+    WalkVolume walk_;
+    WalkCells cells_;
 };
 
-// Two levels with three faces each. Where a cone starts and where it leaves the bounds it reads a few texels more, the
-// same number under a low ceiling and under a high one: it drops out of their difference.
-constexpr int kFetchesPerStep = 2 * 3;
-constexpr float kLow_m = 1.0f, kHigh_m = 1.5f;  // 8 and 12 voxels
-constexpr double kMostBesideSteps = 40.0;       // of one cone
-
-TEST(Fetches, OfOneNarrowConeAreThoseOfItsSteps)
+double value_of(const nlohmann::json& stats, const std::string& name)
 {
-    EmptyGrid low(0.0f, kLow_m), high(0.0f, kHigh_m);  // a mirror: the cone goes straight up and has no width
-    for (const float step : {0.25f, 0.5f, 1.0f, 2.0f}) {
-        LitPixelParams params;
-        params.cones.step = step;
-        const auto steps = [&](const EmptyGrid& empty) {
-            const double end = empty.height(params.specular.specular_start) + 1.0;  // a voxel beyond the bounds
-            const int count = steps_of(end, 0.0, step);
-            EXPECT_NEAR(count, end / step, 1.0);
-            return count;
-        };
-        const double counted_low = low.count(params).specular, counted_high = high.count(params).specular;
-        EXPECT_EQ(counted_high - counted_low, kFetchesPerStep * (steps(high) - steps(low))) << "step " << step;
-        const double beside = counted_low - kFetchesPerStep * steps(low);
-        EXPECT_GE(beside, 1.0);
-        EXPECT_LE(beside, kMostBesideSteps);
+    for (const auto& count : stats.at("counts"))
+        if (count.at("name") == name) return count.at("value");
+    throw std::runtime_error("no count " + name);
+}
+
+nlohmann::json counted(const std::filesystem::path& scene, const std::string& set)
+{
+    const TemporaryFolder folder;
+    const std::string file = (folder / "stats.json").string();
+    const ProgramRun run =
+        run_program("14_speed_against_error", "--headless --size 8x8 --scene '" + scene.string() + "' --stats '" + file +
+                                                  "' --set count_fetches=on bounces=1 " + set);
+    if (run.code != 0) throw std::runtime_error(run.output);
+    return nlohmann::json::parse(std::ifstream(file));
+}
+
+TEST(Fetches, OfOneNarrowConeAreThoseOfItsLeaps)
+{
+    const TemporaryFolder folder;
+    for (const float height_m : {1.0f, 1.5f, 3.0f}) {  // a mirror: the cone goes straight up
+        const std::filesystem::path file = write_open_floor(folder.path(), 0.0, height_m);
+        const OpenFloor floor(file, 96);
+        const nlohmann::json stats = counted(file, "voxels=96");
+        EXPECT_EQ(value_of(stats, "walk steps per pixel, specular"),
+                  floor.texels(double(SpecularConeParams{}.specular_start), {0.0, 1.0, 0.0}))
+            << height_m;
+        EXPECT_EQ(value_of(stats, "fetches per pixel, specular"), 0.0) << "there is no light to read";
     }
 }
 
-TEST(Fetches, OfASetOfConesAreTheSumOfTheirs)
+// In a closed room every cone ends once, where it reads the three faces that look against it, of rgba in one texel or of
+// coverage and light apart.
+TEST(Fetches, OfAClosedRoomAreThreeFacesACone)
 {
-    EmptyGrid low(0.5f, kLow_m), high(0.5f, kHigh_m);
-    for (const float aperture_deg : {1.0f, 5.0f}) {
-        LitPixelParams params;
-        params.cones.interleave = int(Interleave::off);
-        params.cones.aperture = aperture_deg;
-        const ConeSet set = make_cone_set(6, ConeTable::tilted, glm::radians(double(aperture_deg)));
-        const double tan_half = std::tan(double(set.half_angle_rad));
-        const auto steps = [&](const EmptyGrid& empty) {
-            int count = 0;
-            for (const glm::vec4& cone : set.cones) {
-                const double exit = empty.height(params.cones.start_offset) / double(cone.z);
-                const double end = exit + std::max(2.0 * exit * tan_half, 1.0) / double(cone.z);
-                EXPECT_LT(end * std::sqrt(1.0 - double(cone.z * cone.z)), 48.0) << "leaves by a side";
-                count += steps_of(end, tan_half, params.cones.step);
-            }
-            return count;
-        };
-        const double expected = kFetchesPerStep * (steps(high) - steps(low));
-        EXPECT_EQ(high.count(params).diffuse - low.count(params).diffuse, expected) << "aperture " << aperture_deg;
-        // Coverage apart: two fetches for each.
-        const LightFormat apart = LightFormat::r11g11b10f;
-        EXPECT_EQ(high.count(params, apart).diffuse - low.count(params, apart).diffuse, 2.0 * expected);
+    for (const int cones : {5, 16}) {
+        const std::string set = "voxels=32 cones=" + std::to_string(cones);
+        EXPECT_EQ(value_of(counted(asset("white_furnace"), set), "fetches per point, diffuse"), 3.0 * cones);
+        EXPECT_EQ(value_of(counted(asset("white_furnace"), set + " format=r11g11b10f"), "fetches per point, diffuse"),
+                  2.0 * 3.0 * cones);
     }
 }
 
@@ -199,13 +183,6 @@ TEST(Formats, ShortFloatsRoundToTheNearest)
 
 // --- The program ---
 
-double value_of(const nlohmann::json& stats, const std::string& name)
-{
-    for (const auto& count : stats.at("counts"))
-        if (count.at("name") == name) return count.at("value");
-    throw std::runtime_error("no count " + name);
-}
-
 class Program : public testing::Test {
 protected:
     std::string run(const std::string& name, const std::string& options)
@@ -223,35 +200,36 @@ private:
     TemporaryFolder folder_;
 };
 
-std::string asset(const std::string& name)
-{
-    const char* root = std::getenv("CONEBOOK_ROOT");
-    return "--scene " + std::string(root ? root : "") + "/assets/" + name + ".glb --set voxels=32";
-}
-const std::string kGlossyRoom = asset("glossy_room"), kEmissiveBox = asset("cornell_area");
+std::string scene_of(const std::string& name) { return "--scene " + asset(name).string() + " --set voxels=32"; }
+const std::string kGlossyRoom = scene_of("glossy_room"), kEmissiveBox = scene_of("cornell_area");
 
 TEST_F(Program, CountingChangesNoPictureAndAgreesWithItsView)
 {
     const ImageF plain = read_exr(run("plain.exr", kGlossyRoom));
     const ImageF counted = read_exr(run("counted.exr", kGlossyRoom + " count_fetches=on"));
     EXPECT_TRUE(plain.pixels == counted.pixels);
+    // A pixel is shown what its point looked up: each point of 2 x 2 pixels four times.
     const ImageF view = read_exr(run("view.exr", kGlossyRoom + " --view fetches"));
-    double diffuse = 0.0, specular = 0.0, largest = 0.0, covered = 0.0;
+    double diffuse = 0.0, specular = 0.0, covered = 0.0, lobes = 0.0;
     for (const glm::vec4& pixel : view.pixels) {
         if (pixel.a == 0.0f) continue;
         covered += 1.0;
         diffuse += double(pixel.r);
         specular += double(pixel.g);
-        largest = std::max(largest, double(pixel.b));
+        lobes += pixel.g > 0.0f ? 1.0 : 0.0;
+        EXPECT_EQ(pixel.b, pixel.r + pixel.g);
     }
+    ASSERT_EQ(covered, 64.0 * 64.0) << "every pixel of a room shows a surface, and every point gathers";
     for (const std::string name : {"counted.exr", "view.exr"}) {
-        EXPECT_NEAR(value_of(stats(name), "fetches per pixel, diffuse"), diffuse / covered, 1e-6 * diffuse / covered);
-        EXPECT_NEAR(value_of(stats(name), "fetches per pixel, specular"), specular / covered,
-                    1e-6 * specular / covered);
-        EXPECT_EQ(value_of(stats(name), "fetches of the worst pixel"), largest);
+        const auto both = [&](const std::string& kind) {
+            const std::string of = kind == "diffuse" ? " per point, " : " per pixel, ";
+            return value_of(stats(name), "walk steps" + of + kind) + value_of(stats(name), "fetches" + of + kind);
+        };
+        EXPECT_NEAR(both("diffuse"), diffuse / covered, 1e-6 * diffuse / covered);
+        EXPECT_NEAR(both("specular"), specular / lobes, 1e-6 * specular / lobes);
+        EXPECT_EQ(value_of(stats(name), "points that gather, per pixel"), 0.25);
     }
     EXPECT_GT(specular, 0.0);
-    EXPECT_GT(diffuse, specular);
 }
 
 TEST_F(Program, ItsPartsAddUpAndThePictureStays)

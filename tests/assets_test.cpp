@@ -312,7 +312,7 @@ TEST(Assets, EmittersAreSolidsOfTheirSize) {
     EXPECT_GE(material_named(scene, "panel").emission_texture.image, 0);
 }
 
-// The PNG writer against another reader (stb): known texels come back.
+// The PNG writer against another reader (libpng): known texels come back.
 TEST(Assets, TexturesDecode) {
     const Scene scene = conebook::load_scene(asset("colonnade"));
     const conebook::Material& floor = material_named(scene, "floor");

@@ -129,6 +129,10 @@ TEST(Compare, NoiseOfTheReferenceIsSubtracted)
     EXPECT_NEAR(*m.rmse_without_noise, error, 1.2e-3);
     EXPECT_NEAR(*m.noise_rms, sigma, 1e-6);
     EXPECT_TRUE(m.noisy_reference);
+    // Of the truth itself SMAPE finds the noise: |s| / (2 + s), whose mean is that of |s| / 2 to the order of s^2.
+    const ImageMetrics truth = compare_images(constant(size, size, glm::vec3(1)), reference, o);
+    EXPECT_NEAR(*truth.noise_smape, truth.smape, sigma * sigma * truth.smape);
+    EXPECT_NEAR(truth.smape, sigma * std::sqrt(2.0 / M_PI) / 2.0, 0.01 * sigma);
     o.block = 16;  // noise falls by 16
     const ImageMetrics blocks = compare_images(image, reference, o);
     EXPECT_NEAR(*blocks.noise_rms, sigma / 16, 1e-6);

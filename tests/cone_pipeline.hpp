@@ -21,29 +21,38 @@ public:
     ConePipeline(const Scene& scene, const Camera& camera, glm::ivec2 size, int voxels)
         : lit_(scene, voxels),
           g_buffer_(test_gl().shaders, size),
-          diffuse_(test_gl().shaders, lit_.grid, {}),
+          walk_(test_gl().shaders),
+          diffuse_(test_gl().shaders),
           specular_(test_gl().shaders)
     {
+        walk_.run(lit_.grid, lit_.faces);
         look(camera);
     }
 
-    void look(const Camera& camera) { g_buffer_.draw(lit_.scene, camera_data(camera, g_buffer_.size())); }
+    void look(const Camera& camera)
+    {
+        g_buffer_.draw(lit_.scene, camera_data(camera, g_buffer_.size(), lit_.scene.bounds()));
+    }
 
     // rgb: E / pi, the cosine-weighted mean radiance over the hemisphere, W/(sr m^2); a: ambient.
-    ImageF gathered(const ConeParams& params)
+    ImageF gathered(const ConeParams& params, const DiffuseConeParams& diffuse_params = {}, int sample = 0)
     {
-        return read_picture(diffuse_.run(g_buffer_, lit_.grid, lit_.pyramid, DiffuseConeUniforms(params), params));
+        ConeDirections directions;
+        directions.update(params, sample);
+        return read_picture(diffuse_.run(g_buffer_, volumes(), directions, params, diffuse_params, sample));
     }
     // rgb: radiance towards the camera, W/(sr m^2).
     ImageF reflected(const ConeParams& params, const SpecularConeParams& specular_params = {})
     {
-        return read_picture(specular_.run(g_buffer_, lit_.grid, lit_.pyramid, params, specular_params));
+        return read_picture(specular_.run(g_buffer_, volumes(), params, specular_params));
     }
     double voxel_size_m() const { return double(lit_.grid.voxel_size_m()); }
+    ConeVolumes volumes() const { return {lit_.grid, lit_.pyramid, walk_}; }
 
 private:
     LitScene lit_;
     GBuffer g_buffer_;
+    WalkVolume walk_;
     DiffuseCones diffuse_;
     SpecularCones specular_;
 };

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <tinyexr.h>
 
+#include "exr_builder.hpp"
 #include "image/image.hpp"
 #include "temporary_folder.hpp"
 
@@ -138,6 +139,58 @@ TEST(Exr, HalfChannelsAndMissingAlphaAreRead)
                    5, 4, value);
     const ImageF image = read_exr(folder / "half.exr");
     for (int i = 0; i < 20; ++i) EXPECT_EQ(image.pixels[i], glm::vec4(value(2, i), value(1, i), value(0, i), 1.0f));
+}
+
+// The same picture in whatever order and shape its pieces lie.
+TEST(Exr, OrderAndShapeOfThePiecesDoNotChangeThePicture)
+{
+    const TemporaryFolder folder;
+    const auto value = [](int c, int x, int y) { return 0.25f * float(1 + c + 4 * x + 100 * y); };  // exact in half
+    for (const auto& [tile_w, tile_h] : {std::pair(0, 0), {16, 8}, {7, 5}, {64, 64}, {1, 1}})
+        for (int line_order = 0; line_order < (tile_w > 0 ? 3 : 2); ++line_order)
+            for (const bool half : {false, true})
+                for (const int offset : {0, 9, -9}) {
+                    test::ExrBuilder exr{23, 19, {{"A", half}, {"B"}, {"G", half}, {"R", half}, {"Z"}}, line_order};
+                    exr.tile_w = tile_w;
+                    exr.tile_h = tile_h;
+                    exr.x0 = offset;
+                    exr.y0 = -2 * offset;
+                    const std::string bytes = exr.file(value);
+                    write_bytes(folder / "a.exr", {bytes.begin(), bytes.end()});
+                    const ImageF image = read_exr(folder / "a.exr");
+                    ASSERT_EQ(image.width, 23);
+                    ASSERT_EQ(image.height, 19);
+                    for (int y = 0; y < 19; ++y)
+                        for (int x = 0; x < 23; ++x)
+                            ASSERT_EQ(image.at(x, y),
+                                      glm::vec4(value(3, x, y), value(2, x, y), value(1, x, y), value(0, x, y)))
+                                << tile_w << " " << line_order << half << offset;
+                }
+}
+
+TEST(Exr, WhatWouldNotBeThePictureIsRefused)
+{
+    const TemporaryFolder folder;
+    const auto refusal = [&](const test::ExrBuilder& exr) {
+        const std::string bytes = exr.file([](int, int x, int y) { return float(x + y); });
+        write_bytes(folder / "a.exr", {bytes.begin(), bytes.end()});
+        return error_of([&] { read_exr(folder / "a.exr"); });
+    };
+    test::ExrBuilder crop{8, 8};
+    crop.x0 = 3;
+    crop.is_crop = true;
+    expect_one_line_naming(refusal(crop), "a.exr: is a part of its picture");
+    test::ExrBuilder chroma{8, 8, {{"B"}, {"G", false, 2}, {"R"}}};
+    expect_one_line_naming(refusal(chroma), "a.exr: channel G does not have a value for every pixel");
+    for (const int tile : {0, 3}) {
+        test::ExrBuilder missing{8, 8};
+        missing.tile_w = missing.tile_h = tile;
+        EXPECT_EQ(refusal(missing), "");
+        missing.left_out = 5;
+        expect_one_line_naming(refusal(missing), "a.exr: broken OpenEXR data: a piece of the picture is missing");
+        missing.repeated = -1;
+        expect_one_line_naming(refusal(missing), "a.exr: broken OpenEXR data: a piece of the picture is missing");
+    }
 }
 
 TEST(Exr, UnsuitableChannelsAreRefused)

@@ -6,7 +6,7 @@
 
 namespace conebook {
 
-// Voxels -> what the lights reach -> the radiance of the faces -> its pyramids.
+// Voxels -> what the lights reach -> what the faces reflect of it -> its pyramids.
 struct LitScene : VoxelScene {
     ShadowMaps shadow_maps;
     VoxelShading shading;
@@ -16,14 +16,13 @@ struct LitScene : VoxelScene {
              const PyramidParams& pyramid_params = {})
         : VoxelScene(source, source.bounds, voxels),
           shadow_maps(test_gl().shaders, scene, {}),
-          shading(test_gl().shaders, shading_params),
+          shading(test_gl().shaders),
           pyramid(test_gl().shaders, grid, pyramid_params)
     {
         shadow_maps.draw(scene);
         average();
-        pyramid.prepare(grid, faces);
-        shading.run(scene, grid, voxelizer, faces, shadow_maps);
-        pyramid.run(grid, faces, shading.radiance());
+        shading.run(scene, grid, voxelizer, faces, shadow_maps, shading_params);
+        pyramid.run(grid, faces, shading.radiance(), shading.revision());
     }
 };
 

@@ -120,7 +120,6 @@ TEST_F(SharedStructs, CameraData)
     using T = shared::CameraData;
     expect_uniform("camera.clip_from_scene", offsetof(T, clip_from_scene));
     expect_uniform("camera.scene_from_clip", offsetof(T, scene_from_clip));
-    expect_uniform("camera.view_from_scene", offsetof(T, view_from_scene));
     expect_uniform("camera.position", offsetof(T, position));
     expect_uniform("camera.forward", offsetof(T, forward));
     expect_uniform("camera.size", offsetof(T, size));
@@ -161,7 +160,7 @@ TEST_F(SharedStructs, VoxelFaceAndStatistics)
     expect_stride("counters[0].faces", sizeof(S));
 }
 
-// Compute shaders read vertices as 18 floats (shaders/common/triangle_voxels.glsl).
+// Compute shaders read vertices as 18 floats (shaders/04_conservative_voxelization/triangle_voxels.glsl).
 TEST_F(SharedStructs, VerticesAreEighteenFloats)
 {
     EXPECT_EQ(sizeof(Vertex), 18 * sizeof(float));

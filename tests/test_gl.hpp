@@ -19,11 +19,7 @@ struct TestGl {
     Context context = Context::headless();
     gl::DebugLog log;
     gl::Shaders shaders;
-    TestGl() : shaders(root() + "/shaders")
-    {
-        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-        glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-    }
+    TestGl() : shaders(root() + "/shaders") { glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE); }
     static std::string root()
     {
         const char* folder = std::getenv("CONEBOOK_ROOT");

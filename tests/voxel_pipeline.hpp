@@ -15,7 +15,7 @@ struct LitFace {
     glm::ivec3 voxel;
     int direction;  // 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z
     shared::VoxelFace mean;
-    glm::vec3 radiance;  // W/(sr m^2)
+    glm::vec3 radiance;  // reflected of direct light, and emitted, W/(sr m^2)
     float visibility;    // 0..1
 };
 
@@ -61,7 +61,7 @@ public:
             all.push_back({{int(e & 511u), int((e >> 9) & 511u), int((e >> 18) & 511u)},
                            int(e >> 27),
                            means[i],
-                           glm::vec3(radiance[i]),
+                           glm::vec3(radiance[i]) + glm::vec3(means[i].emission),
                            radiance[i].a});
         }
         return all;

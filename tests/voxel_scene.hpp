@@ -20,7 +20,12 @@ struct VoxelScene {
           faces(test_gl().shaders, grid, voxelizer)
     {
     }
-    void voxelize() { voxelizer.run(scene, grid); }
+    // Anew, whether anything has changed or not.
+    void voxelize()
+    {
+        voxelizer.forget();
+        voxelizer.run(scene, grid);
+    }
     void average()
     {
         voxelize();

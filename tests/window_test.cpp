@@ -38,6 +38,7 @@ TEST(Window, ShowsWhatHeadlessShows)
     const std::string arguments = " --frames 2 --size 320x180 --set voxels=32 --output ";
     const ProgramRun window = run_in_window(arguments + "'" + in_window + "'");
     ASSERT_EQ(window.code, 0) << window.output;
+    EXPECT_NE(window.output.find(": drawn by "), std::string::npos) << window.output;
     const ProgramRun headless = run_program(kProgram, "--headless" + arguments + "'" + without + "'");
     ASSERT_EQ(headless.code, 0) << headless.output;
     const Image8 a = read_png(in_window), b = read_png(without);

@@ -5,8 +5,8 @@
   R1  path tracer, --bounces of them           truncation
   R2  512 rays a pixel into the finest voxels  voxelization, and the bounces between voxels
   R3  512 cones of 6 degrees a pixel           filtering
-  R4  the 96 cones of 16 neighbours a pixel    quadrature
-  R5  6 cones a pixel, 16 neighbours share     reconstruction
+  R4  the 256 cones of 16 neighbours a pixel   quadrature
+  R5  16 cones in one of 2 x 2 pixels, shared  reconstruction
 
 Each rung is a command and a row: how far its mean is from the rung before, in per cent of R1's mean; SMAPE against the
 rung before and against R1; 95th percentile of the relative error against R1. The signed steps add up to R5 - R0.
@@ -91,7 +91,7 @@ def rungs(options):
             ("R1", "path tracer, as many bounces", traced(options.bounces)),
             ("R2", "512 rays, finest voxels", cones("interleave=every_pixel", "cones=32", "aperture=0.1")),
             ("R3", "512 narrow cones", cones("interleave=every_pixel", "cones=32")),
-            ("R4", "96 cones, nothing shared", cones("interleave=every_pixel")),
+            ("R4", "256 cones, nothing shared", cones("interleave=every_pixel")),
             ("R5", "as shipped", cones())]
     # end snippet
 

@@ -2,7 +2,7 @@
 import math
 
 # The figure by which settings are compared: SMAPE of the final picture against all bounces, 0..1.
-MEASURE = ("final_all", "smape")
+MEASURE = ("final", "smape")
 
 
 def error(row, part=MEASURE[0], measure=MEASURE[1]):
@@ -46,6 +46,7 @@ class Report:
     def __init__(self, data):
         self.data = data
         self.rows = [row for row in data["rows"] if row["kind"] == "cones"]
+        self.large = [row for row in data["rows"] if row["kind"] == "large"]
         self.traced = [row for row in data["rows"] if row["kind"] == "path_tracer"]
         self.drift = [row for row in data["rows"] if row["kind"] == "drift"]
         self.scenes = list(dict.fromkeys(row["scene"] for row in self.rows))
@@ -60,8 +61,17 @@ class Report:
         order = self.data["sweep_order"].get(name, [])
         return sorted(rows, key=lambda r: order.index(r["sweep_values"][name]) if r["sweep_values"][name] in order else 99)
 
+    def ratios(self, rows, part=MEASURE[0], measure=MEASURE[1]):
+        """Of an error to the same scene's baseline, one a row that has both."""
+        found = []
+        for row in rows:
+            own, base = error(row, part, measure), error(self.row(row["scene"]), part, measure)
+            if own is not None and base:
+                found.append(own / base)
+        return found
+
     def settings(self):
-        """Every setting that all core scenes have: its mean time relative to the baseline, in ms, and its mean error.
+        """Every setting that all core scenes have: its mean time in ms, its mean error, and both over the baseline's.
 
         Times of different scenes and moments are made comparable first: a row's time is its ratio to the baseline that
         ran last before it, times that scene's baseline.
@@ -71,17 +81,21 @@ class Report:
             rows = [self.row(scene, setting) for scene in self.core]
             if not rows or any(r is None or error(r) is None for r in rows):
                 continue
+            ratios = [error(r) / error(self.row(r["scene"])) for r in rows]
             found.append({"setting": setting,
                           "ids": [r["id"] for r in rows],
                           "ms": sum(r["ms_steady"] for r in rows) / len(rows),
                           "relative_time": geometric_mean([r["relative_time"] for r in rows]),
                           "error": sum(error(r) for r in rows) / len(rows),
-                          "fetches": sum(r["fetches"] for r in rows) / len(rows),
+                          "relative_error": geometric_mean(ratios), "worst_error": max(ratios),
                           "bytes": sum(r["bytes"] for r in rows) / len(rows)})
         return found
 
+    def setting(self, name):
+        return next((s for s in self.settings() if s["setting"] == name), None)
+
     def baseline(self):
-        return next((s for s in self.settings() if s["setting"] == "baseline"), None)
+        return self.setting("baseline")
 
     def front(self):
         settings = self.settings()
@@ -115,22 +129,30 @@ class Report:
 
     def not_worth(self, time=1.05, gain=0.98):
         """One-parameter changes that take more than `time` of the baseline's and leave over `gain` of its error."""
-        base = self.baseline()
-        return [s for s in self.one_change() if s["relative_time"] > time and s["error"] > gain * base["error"]]
+        return [s for s in self.one_change() if s["relative_time"] > time and s["relative_error"] > gain]
 
     def bargains(self, time=0.9, loss=1.05):
         """One-parameter changes that save time and keep the error within `loss` of the baseline's."""
-        base = self.baseline()
-        return [s for s in self.one_change() if s["relative_time"] < time and s["error"] < loss * base["error"]]
+        return [s for s in self.one_change() if s["relative_time"] < time and s["relative_error"] < loss]
 
-    def slope(self, scene, part="indirect_diffuse", measure="smape", fewest=0):
-        """Exponent of the error over the number of voxels along a side; with `fewest`, of finer grids alone."""
+    def slope(self, scene, part="indirect_diffuse", measure="smape"):
+        """Exponent of the error over the number of voxels along a side."""
         points = [(float(r["parameters"]["voxels"]), error(r, part, measure)) for r in self.sweep(scene, "voxels")
-                  if error(r, part, measure) is not None and float(r["parameters"]["voxels"]) >= fewest]
+                  if error(r, part, measure) is not None]
         fit = fit_power(points)
         return fit and fit[0]
 
-    def equal_time(self):
-        """(row of cones, row of the path tracer that had its time) for every path tracer row."""
-        by_id = {row["id"]: row for row in self.rows}
-        return [(by_id[t["equal_to"]], t) for t in self.traced if t["equal_to"] in by_id]
+    def against_path_tracer(self):
+        """(row of cones, {(factor of its time, whether neighbours share): row of the path tracer}), the large row last."""
+        found = []
+        for row in [*(self.row(scene) for scene in self.scenes), *self.large]:
+            traced = {(t["factor"], t["share"]): t for t in self.traced
+                      if t["scene"] == row["scene"] and t["size"] == row["size"]}
+            if traced:
+                found.append((row, traced))
+        return found
+
+    def measured_errors(self):
+        """(row, part, measures) of everything that was compared by blocks, and not taken over from the baseline."""
+        return [(r, part, e) for r in self.rows + self.large + self.traced for part, e in r["errors"].items()
+                if e and "same_as" not in e and part != "final_pixels"]

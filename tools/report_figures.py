@@ -55,9 +55,11 @@ def draw_pareto(plt, report, file):
         axis.plot(*zip(*(points[i] for i in front)), "-o", color=COLORS[0], markersize=5, label="Pareto front")
         base = report.row(scene)
         axis.plot(base["ms_steady"], error(base), "s", color=COLORS[1], markersize=7, label="baseline (defaults)")
-        traced = sorted((t["ms_total"], error(t)) for t in report.traced if t["scene"] == scene)
-        if traced:
-            axis.plot(*zip(*traced), "x--", color=COLORS[2], label="path tracer")
+        for shares, color, name in ((False, COLORS[2], "path tracer"), (True, COLORS[3], "path tracer that shares")):
+            traced = sorted((t["ms_total"], error(t)) for t in report.traced
+                            if t["scene"] == scene and t["size"] == base["size"] and t["share"] == shares)
+            if traced:
+                axis.plot(*zip(*traced), "x--", color=color, label=name)
         for n, i in enumerate(front):
             if n % max(1, len(front) // 4) == 0 or n == len(front) - 1:
                 axis.annotate(short(rows[i]["setting"]), points[i], fontsize=5.5, xytext=(3, 4), textcoords="offset points")
@@ -85,35 +87,30 @@ def draw_voxels(plt, report, file):
     save(plt, figure, file)
 
 
-def draw_sweep(plt, report, name, file, part, xlabel, second=""):
-    """One parameter: time over the baseline's, and error, on every core scene. `second`: name of another one swept with it."""
+def draw_sweep(plt, report, name, file, part, xlabel):
+    """One parameter on every core scene: time and error, both over the same scene's baseline."""
     figure, axes = plt.subplots(1, 2, figsize=(WIDTH, 3.2))
-    longest = 0
+    order = report.data["sweep_order"].get(name, [])
     for color, scene in zip(COLORS, report.core):
-        # A second swept parameter makes a second line.
-        lines = {}
-        for row in report.sweep(scene, name):
-            label, _, other = row["sweep_values"][name].partition(" ")
-            lines.setdefault(other, []).append((label, row))
-            longest = max(longest, len(label))
-        for style, (other, points) in zip(("-o", "--s", ":^"), lines.items()):
-            name_of_line = f"{scene} {second}={other}" if other else scene
-            for axis, value in ((axes[0], lambda r: r["relative_time"]), (axes[1], lambda r: error(r, part))):
-                known = [(label, value(row)) for label, row in points if value(row) is not None]
-                if known:
-                    axis.plot(*zip(*known), style, color=color, markersize=4, label=name_of_line)
+        base = error(report.row(scene), part)
+        rows = [r for r in report.sweep(scene, name) if error(r, part) is not None]
+        if not base or not rows:
+            continue
+        places = [order.index(r["sweep_values"][name]) for r in rows]
+        axes[0].plot(places, [r["relative_time"] for r in rows], "-o", color=color, markersize=4, label=scene)
+        axes[1].plot(places, [error(r, part) / base for r in rows], "-o", color=color, markersize=4, label=scene)
     axes[0].set(xlabel=xlabel, ylabel="time of a frame over the baseline's", ylim=(0, None))
-    axes[1].set(xlabel=xlabel, ylabel="SMAPE, " + ("all light" if part == "final_all" else part.replace("_", " ")), ylim=(0, None))
+    axes[1].set(xlabel=xlabel, ylabel="SMAPE over the baseline's, " + part.replace("final", "all light").replace("_", " "), ylim=(0, None))
     for axis in axes:
-        axis.tick_params(axis="x", labelrotation=30 if longest > 6 else 0)
-    axes[0 if second else 1].legend(fontsize=6.5)
+        axis.set_xticks(range(len(order)), order)
+    axes[1].legend(fontsize=6.5)
     save(plt, figure, file)
 
 
 def draw_ladder(plt, ladder, file):
-    """The signed means of the ladder's steps, stacked: what each adds to or takes from the light, in % of the truth.
+    """The signed means of the ladder's steps, stacked: what each adds to or takes from the light, in % of R1.
 
-    `ladder`: {scene: {"steps": [[name, signed % of the truth's mean], ...], "total": %}}.
+    `ladder`: {scene: {"steps": [[name, signed % of R1's mean], ...], "total": %}}.
     """
     steps = list(dict.fromkeys(name for climbed in ladder.values() for name, _ in climbed["steps"]))
     figure, axis = plt.subplots(figsize=(WIDTH, 0.6 * len(ladder) + 1.4))
@@ -127,7 +124,7 @@ def draw_ladder(plt, ladder, file):
         axis.plot(climbed["total"], y, "D", color="black", markersize=4, label="sum" if y == 0 else None)
     axis.set_yticks(range(len(ladder)), list(ladder))
     axis.axvline(0, color="black", linewidth=0.8)
-    axis.set_xlabel("signed error of each step, % of the reference's mean")
+    axis.set_xlabel("signed error of each step, % of the mean of the path tracer with as many bounces (R1)")
     axis.legend(fontsize=6.5, ncols=3, loc="lower center", bbox_to_anchor=(0.5, 1.0))
     save(plt, figure, file)
 
@@ -136,13 +133,13 @@ def draw_heat_maps(bench, plan, scenes, file):
     """Picture, path tracer, and where they differ, a row for every scene: made by compare and sheet, without matplotlib."""
     cells = []
     for scene in scenes:
-        bench.render(scene, plan.base, 1)
-        reference = bench.reference(scene, "final", -1, plan.spp["final"])
+        bench.render(scene, plan.base, 1, count=False)
+        reference = bench.reference(scene)
         kept = bench.pictures / f"{scene}_baseline.exr"
         bench.part_picture(scene, "final").replace(kept)
         heat = bench.pictures / f"{scene}_heat.png"
         bench.heat_map(kept, reference, heat)
-        cells += [kept, reference["picture"], heat]
+        cells += [kept, f"{reference['stem']}.exr", heat]
     bench.run("sheet", "--columns", 6 if len(scenes) > 1 else 3, "--width", 156, *cells, "--output", file)
 
 
@@ -151,13 +148,11 @@ def draw(report, bench, plan, folder):
     draw_pareto(plt, report, folder / "14_pareto.png")
     if any(len(report.sweep(s, "voxels")) > 1 for s in report.scenes):
         draw_voxels(plt, report, folder / "14_voxels.png")
-    for name, part, label, *second in [("step", "indirect_diffuse", "step over the cone's diameter"),
-                                       ("cones", "indirect_diffuse", "cones", "interleave"),
-                                       ("start_offset", "indirect_diffuse", "start offset, voxels"),
-                                       ("aperture", "indirect_diffuse", "aperture, degrees"),
-                                       ("bounces", "final_all", "bounces")]:
+    for name, part, label in [("cones", "indirect_diffuse", "cones"), ("gather_scale", "indirect_diffuse", "gather scale"),
+                              ("links", "final", "links of a face"), ("aperture", "indirect_diffuse", "aperture, degrees"),
+                              ("start_offset", "indirect_diffuse", "start offset, voxels"), ("bounces", "final", "bounces")]:
         if any(len(report.sweep(s, name)) > 1 for s in report.core):
-            draw_sweep(plt, report, name, folder / f"14_{name}.png", part, label, *second)
+            draw_sweep(plt, report, name, folder / f"14_{name}.png", part, label)
     if report.data["ladder"]:
         draw_ladder(plt, report.data["ladder"], folder / "14_ladder.png")
     draw_heat_maps(bench, plan, report.core, folder / "14_heat_maps.png")

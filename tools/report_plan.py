@@ -5,26 +5,36 @@ from dataclasses import dataclass, field
 
 CORE_SCENES = ["cornell_box", "cornell_area", "colonnade", "glossy_room"]
 OUTSIDE_SCENES = {"sponza": "scenes/sponza_crytek.glb"}  # in the folder of real scenes, where there is one
+LARGE_SCENE, LARGE_SIZE = "cornell_box", "1280x720"  # one row of this size against the path tracer
 
-PARTS = ["direct", "indirect_diffuse", "indirect_specular", "final"]
+PARTS = ["final", "direct", "indirect_diffuse", "indirect_specular"]
 # What a parameter can change; every other one changes all that comes by way of the voxels.
-CHANGES_ONLY = {"shadows": ["direct", "final"], "light_radius": [], "light_angle": [],
-                "aimed_rays": ["indirect_diffuse", "final"], "specular_cones": ["indirect_specular", "final"]}
-INDIRECT = ["indirect_diffuse", "indirect_specular", "final"]
+CHANGES_ONLY = {"shadows": ["final", "direct"], "light_radius": [], "light_angle": [], "accumulate": [],
+                "aimed_rays": ["final", "indirect_diffuse"], "specular_cones": ["final", "indirect_specular"],
+                "gather_scale": ["final", "indirect_diffuse"]}
+INDIRECT = ["final", "indirect_diffuse", "indirect_specular"]
 
+# A frame by itself in which everything is made anew: what a frame takes in which objects and lights move, and its error
+# without the mean of many.
+ALONE = {"update": "always", "accumulate": "off"}
 # The path tracer's lights have no size: cones to them are made as narrow as they can be, so that what is measured is the
 # method and not a penumbra.
 NARROW_LIGHTS = {"light_radius": "0.001", "light_angle": "0.05"}
+MARCH = {"walk": "march"}
 
 SWEEPS = {
+    "walk": [{"walk": w} for w in ("leap", "march")],
+    "gather_scale": [{"gather_scale": s} for s in ("1", "2", "4")],
+    "cones": [{"cones": c} for c in ("1", "5", "6", "9", "16", "32")],
+    "interleave": [{"interleave": i} for i in ("off", "on", "every_pixel")],
+    "links": [{"links": n} for n in ("1", "5", "9", "16")],
     "voxels": [{"voxels": v} for v in ("32", "64", "128", "256")],
-    "cones": [{"cones": c, "interleave": i} for i in ("on", "off") for c in ("5", "6", "9", "16", "32")],
-    "aperture": [{"aperture": a} for a in ("3", "10", "20", "40")],
-    "step": [{"step": s} for s in ("0.25", "0.5", "1", "2")],
+    "bounces": [{"bounces": b} for b in ("0", "1", "2", "4", "-1")],
+    "aperture": [{"aperture": a} for a in ("0", "3", "10", "20")],
     "start_offset": [{"start_offset": o} for o in ("0.25", "0.75", "1.5")],
-    "directions": [{"directions": d} for d in ("per_face", "anisotropic", "isotropic")],
+    "step": [{"step": s, **MARCH} for s in ("0.5", "1", "2")],
+    "directions": [{"directions": d, **MARCH} for d in ("per_face", "anisotropic", "isotropic")],
     "format": [{"format": f} for f in ("rgba16f", "rgba8", "r11g11b10f")],
-    "bounces": [{"bounces": b} for b in ("0", "1", "2", "3", "4", "-1")],
     "shadows": [{"shadows": "map"}, {"shadows": "cone", **NARROW_LIGHTS}, {"shadows": "volume"}],
 }
 # Of parameters that the other scenes have no use for.
@@ -33,45 +43,41 @@ SCENE_SWEEPS = {
     "glossy_room": {"specular_cones": [{"specular_cones": n} for n in ("1", "2", "4", "8")]},
 }
 GRID = [
-    {"voxels": "32", "cones": "5", "interleave": "off", "step": "2", "bounces": "1"},
-    {"voxels": "32", "cones": "5", "step": "2", "bounces": "1"},
-    {"voxels": "32", "aperture": "20", "bounces": "-1"},
-    {"voxels": "32", "cones": "16", "bounces": "-1"},
-    {"voxels": "64", "cones": "5", "interleave": "off", "step": "2", "bounces": "1"},
-    {"voxels": "64", "aperture": "20", "bounces": "-1"},
-    {"voxels": "64", "step": "2", "bounces": "-1"},
-    {"voxels": "64", "bounces": "-1"},
-    {"voxels": "64", "cones": "16", "bounces": "-1"},
-    {"cones": "16", "bounces": "-1"},
+    {"voxels": "32", "cones": "6", "gather_scale": "4", "links": "1"},
+    {"voxels": "64", "cones": "6", "gather_scale": "4"},
+    {"voxels": "64", "cones": "16", "gather_scale": "4"},
+    {"voxels": "64", "cones": "32"},
+    {"cones": "32", "links": "16"},
+    {"cones": "32", "links": "16", "gather_scale": "1"},
 ]
 
-OVERHEAD_S = 3.0  # of a row, beside its frames
-# Left out last when time is short: the ends of the sweeps that everybody asks for.
-WANTED = ("baseline", "voxels=256", "bounces=-1")
+OVERHEAD_S = 2.5  # of a row, beside its frames
+# Left out last when time is short: what the page's conclusions speak of.
+WANTED = ("baseline", "walk=march", "bounces=1", "bounces=2", "voxels=64", "cones=32", "gather_scale=1", "links=1")
 # About how many times the baseline's time a setting takes; only the number of frames depends on it.
-SLOW_SETTINGS = {("voxels", "256"): 8.0, ("voxels", "64"): 0.5, ("voxels", "32"): 0.3, ("bounces", "-1"): 5.0,
-                 ("bounces", "4"): 3.0, ("bounces", "1"): 0.4, ("cones", "16"): 2.5, ("cones", "32"): 5.0, ("step", "0.25"): 3.0,
-                 ("interleave", "off"): 0.5, ("format", "r11g11b10f"): 2.5}
+SLOW_SETTINGS = {("voxels", "256"): 8.0, ("voxels", "64"): 0.5, ("voxels", "32"): 0.4, ("bounces", "0"): 0.1,
+                 ("bounces", "1"): 0.5, ("cones", "32"): 1.5, ("step", "0.5"): 2.0, ("walk", "march"): 8.0,
+                 ("interleave", "every_pixel"): 12.0, ("gather_scale", "1"): 2.0, ("links", "16"): 1.5}
 
 QUICK_SCENES = ["cornell_box", "glossy_room"]
-QUICK_BASE = {"voxels": "48"}
+QUICK_BASE = {"voxels": "32"}
 QUICK_SWEEPS = {
-    "voxels": [{"voxels": v} for v in ("24", "32", "48")],
-    "cones": [{"cones": "6", "interleave": "on"}, {"cones": "5", "interleave": "on"}, {"cones": "6", "interleave": "off"}],
-    "step": [{"step": s} for s in ("1", "2")],
-    "directions": [{"directions": d} for d in ("per_face", "isotropic")],
-    "format": [{"format": f} for f in ("rgba16f", "rgba8")],
-    "bounces": [{"bounces": b} for b in ("0", "1", "2", "-1")],
+    "voxels": [{"voxels": v} for v in ("16", "32")],
+    "walk": SWEEPS["walk"],
+    "cones": [{"cones": c} for c in ("6", "16")],
+    "bounces": [{"bounces": b} for b in ("0", "2", "-1")],
     "shadows": [{"shadows": "map"}, {"shadows": "cone", **NARROW_LIGHTS}],
 }
-QUICK_GRID = [{"voxels": "24", "step": "2", "bounces": "1"}]
+QUICK_GRID = [{"voxels": "16", "gather_scale": "4"}]
 
 # Sponza takes long: few rows, of what matters most.
 OUTSIDE_SWEEPS = {
     "voxels": [{"voxels": v} for v in ("64", "128", "256")],
-    "cones": [{"cones": "16"}],
-    "directions": [{"directions": "isotropic"}],
-    "bounces": [{"bounces": "1"}, {"bounces": "-1"}],
+    "walk": SWEEPS["walk"],
+    "cones": [{"cones": c} for c in ("16", "32")],
+    "gather_scale": [{"gather_scale": s} for s in ("1", "2")],
+    "links": [{"links": n} for n in ("1", "5")],
+    "bounces": [{"bounces": b} for b in ("1", "2", "-1")],
 }
 
 
@@ -86,14 +92,14 @@ class Row:
         if baseline_ms is None:
             return most
         expected_ms = self.expected_ms(baseline_ms)
-        return max(1, min(most, 3 if expected_ms < 700 else 2 if expected_ms < 3000 else 1))
+        return max(1, min(most, 3 if expected_ms < 700 else 2 if expected_ms < 2000 else 1))
 
     def expected_ms(self, baseline_ms):
         """A guess at the time of a frame."""
         return baseline_ms * math.prod(SLOW_SETTINGS.get(item, 1.0) for item in self.settings.items())
 
     def expected_seconds(self, most_frames, baseline_ms):
-        """A guess at the time until the row is measured: frames, counting of fetches, comparing."""
+        """A guess at the time until the row is measured: frames, counting of look-ups, comparing."""
         counting = 0.5
         return OVERHEAD_S + (self.frames(most_frames, baseline_ms) + counting) * self.expected_ms(baseline_ms) / 1000
 
@@ -117,11 +123,11 @@ class Row:
 class Plan:
     scenes: list
     base: dict          # parameters that all rows share and that are not the program's defaults
-    size: int           # pixels along both sides
+    size: str           # WxH
+    large_size: str     # of the one large row
     frames: int
-    spp: dict           # of the references, by part
+    most_spp: int       # of the references, where there is time for it
     drift_every: int    # rows between two runs of the baseline
-    path_tracer_rows: int
     rows: list
 
 
@@ -166,7 +172,7 @@ def fitting(rows, seconds, most_frames, baseline_ms):
 
 def make_plan(quick, scenes, defaults, shared):
     """`defaults`: the program's parameters by name. `shared`: folder of real scenes, or None."""
-    base = dict(QUICK_BASE if quick else {})
+    base = {**ALONE, **(QUICK_BASE if quick else {})}
     baseline = {**defaults, **base}
     chosen = scenes or (QUICK_SCENES if quick else CORE_SCENES + list(OUTSIDE_SCENES))
     rows = []
@@ -184,7 +190,5 @@ def make_plan(quick, scenes, defaults, shared):
             rows += rows_of(scene, sweeps, QUICK_GRID if quick else GRID, baseline)
         used.append(scene)
     if quick:
-        return Plan(used, base, 64, 2, {"direct": 64, "indirect_diffuse": 128, "indirect_specular": 64, "final": 128},
-                    6, 2, rows)
-    return Plan(used, base, 256, 3,
-                {"direct": 64, "indirect_diffuse": 512, "indirect_specular": 256, "final": 384}, 9, 5, rows)
+        return Plan(used, base, "48x48", "96x54", 2, 64, 4, rows)
+    return Plan(used, base, "256x256", LARGE_SIZE, 3, 4096, 9, rows)

@@ -18,7 +18,7 @@ const gl::Texture& ForwardPass::run(const GpuScene& scene, const shared::CameraD
     }
     // snippet: forward_pass
     camera_buffer_.write(0, sizeof camera, &camera);
-    camera_buffer_.bind(GL_UNIFORM_BUFFER, 0);
+    camera_buffer_.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     framebuffer_.bind(size);
     constexpr float kNothing[4] = {0.0f, 0.0f, 0.0f, 0.0f};
     constexpr float kFarthest = 0.0f;  // reversed depth: 1 at the near plane, 0 at infinity

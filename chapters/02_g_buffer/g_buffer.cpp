@@ -25,7 +25,7 @@ void GBuffer::resize(glm::ivec2 size)
 void GBuffer::draw(const GpuScene& scene, const shared::CameraData& camera)
 {
     camera_buffer_.write(0, sizeof camera, &camera);
-    camera_buffer_.bind(GL_UNIFORM_BUFFER, 0);
+    camera_buffer_.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     framebuffer_.bind(size());
     constexpr float kNothing[4] = {0.0f, 0.0f, 0.0f, 0.0f};
     constexpr float kFarthest = 0.0f;
@@ -44,7 +44,7 @@ void GBuffer::bind() const
     for (const gl::Texture* texture :
          {&depth_, &normal_, &geometric_normal_, &base_color_metallic_, &f0_f90_, &emission_roughness_})
         texture->bind(unit++);
-    camera_buffer_.bind(GL_UNIFORM_BUFFER, 0);
+    camera_buffer_.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
 }
 
 std::vector<gl::Resource> GBuffer::resources() const

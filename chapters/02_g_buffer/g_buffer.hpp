@@ -21,7 +21,7 @@ public:
     // Size in pixels; does nothing when it is the same.
     void resize(glm::ivec2 size);
     void draw(const GpuScene& scene, const shared::CameraData& camera);
-    // For shaders that include common/g_buffer.glsl: textures on units 8..13, camera on uniform block 0.
+    // For shaders that include common/g_buffer.glsl: textures on units 8..13, kCameraBlock.
     void bind() const;
 
     glm::ivec2 size() const { return depth_.size_2d(); }

@@ -40,7 +40,7 @@ try {
     while (app.next_frame()) {
         // snippet: frame
         // What the lights see.
-        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
 
         // What the camera sees.
         g_buffer.resize(app.size());

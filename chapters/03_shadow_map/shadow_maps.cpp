@@ -125,8 +125,10 @@ ShadowMaps::ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const Shadow
     framebuffer_ = gl::Framebuffer("shadow maps", {}, &depth_);
 }
 
-void ShadowMaps::draw(const GpuScene& scene)
+bool ShadowMaps::draw(const GpuScene& scene)
 {
+    if (!made_from_.differs(scene.geometry_revision(), scene.lights_revision())) return false;
+    ++revision_;
     // snippet: draw
     framebuffer_.bind(depth_.size_2d());
     glEnable(GL_DEPTH_TEST);
@@ -142,13 +144,13 @@ void ShadowMaps::draw(const GpuScene& scene)
     }
     glDisable(GL_DEPTH_TEST);
     // end snippet
-    drawn_ = true;
+    return true;
 }
 
 void ShadowMaps::bind(const gl::Program& program) const
 {
-    layer_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 4);
-    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 14);
+    layer_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kShadowLayerBinding);
+    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kShadowLightBinding);
     depth_.bind(GLuint(shared::kShadowMapUnit));
     program.set("shadow_bias_texels", params_.shadow_bias);
     program.set("shadow_receiver_plane", params_.shadow_receiver_plane ? 1 : 0);
@@ -163,8 +165,8 @@ std::vector<Need> ShadowMaps::needs(const GpuScene& scene) const
         const std::size_t maps = shadow_matrices(light, scene.bounds(), size()).size();
         const std::string of = " of light " + std::to_string(needs.size()), type = kTypes[int(light.type)];
         const std::string how_many = maps == 1 ? "one map" : std::to_string(maps) + " maps";
-        const std::string why = maps == 0 ? " without intensity" : drawn_ ? ": " + how_many : ": no pass asks its maps";
-        needs.push_back({"shadow map" + of, drawn_ && maps > 0, type + why});
+        const std::string why = maps == 0 ? " without intensity" : revision_ > 0 ? ": " + how_many : ": no pass asks its maps";
+        needs.push_back({"shadow map" + of, revision_ > 0 && maps > 0, type + why});
     }
     return needs;
 }

@@ -25,8 +25,11 @@ void add_parameters(ParameterTable& table, ShadowMapParams& params);
 class ShadowMaps {
 public:
     ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params);
-    void draw(const GpuScene& scene);
-    // For shaders that include common/shadow_map.glsl: storage 4 and 14, unit 14.
+    // Draws the maps if scene or lights have changed, and says whether it did.
+    bool draw(const GpuScene& scene);
+    void forget() { made_from_.forget(); }  // the next call draws whatever has changed, for measuring
+    Revision revision() const { return revision_; }
+    // For shaders that include common/shadow_map.glsl: kShadowLayerBinding, kShadowLightBinding, kShadowMapUnit.
     void bind(const gl::Program& program) const;
 
     int layers() const { return int(layers_.size()); }
@@ -39,7 +42,8 @@ public:
 
 private:
     ShadowMapParams params_;
-    bool drawn_ = false;
+    MadeFrom<Revision, Revision> made_from_;  // geometry, lights
+    Revision revision_ = 0;
     gl::Program program_;
     std::vector<shared::ShadowLayer> layers_;
     gl::Buffer layer_buffer_, light_buffer_;

@@ -69,8 +69,10 @@ std::vector<gl::Resource> ConservativeVoxelizer::resources() const
     return resources;
 }
 
-void ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
+bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
 {
+    if (!made_from_.differs(scene.geometry_revision())) return false;
+    ++revision_;
     // Clear what the last frame marked.
     occupancy_.clear();
     statistics_.clear();
@@ -80,7 +82,7 @@ void ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
     }
 
     // Mark every voxel that a triangle overlaps.
-    statistics_.bind(GL_SHADER_STORAGE_BUFFER, 5);
+    statistics_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
     occupancy_.bind_image(0, 0, GL_READ_WRITE);
     for_each_column(mark_, voxelizer_, scene, grid, column_plane_);
 
@@ -95,6 +97,7 @@ void ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
     }
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_SHADER_STORAGE_BARRIER_BIT);
+    return true;
 }
 
 VoxelViewPass::VoxelViewPass(gl::Shaders& shaders)
@@ -107,7 +110,7 @@ const gl::Texture& VoxelViewPass::run(const VoxelGrid& grid, const gl::Texture& 
 {
     gl::fit_to_pixels(color_, framebuffer_, "voxel view", GL_RGBA16F, size);
     grid.bind();
-    camera.bind(GL_UNIFORM_BUFFER, 0);
+    camera.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     occupancy.bind(shared::kOccupancyUnit);
     program_.set("level", std::min(params.level, grid.levels() - 1));
     program_.set("shaded", params.shaded);

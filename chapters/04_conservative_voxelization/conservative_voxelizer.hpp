@@ -28,8 +28,10 @@ class ConservativeVoxelizer {
 public:
     ConservativeVoxelizer(gl::Shaders& shaders, const VoxelGrid& grid, const VoxelizerParams& params);
 
-    // Fill occupancy() and its levels from the scene's triangles.
-    void run(const GpuScene& scene, const VoxelGrid& grid);
+    // Fill occupancy() and its levels from the scene's triangles if these have changed; says whether they have.
+    bool run(const GpuScene& scene, const VoxelGrid& grid);
+    void forget() { made_from_.forget(); }  // the next run fills them whatever has changed, for measuring
+    Revision revision() const { return revision_; }
 
     // r32ui, grid size: fragments in each voxel. Only with VoxelizerParams::count_fragments.
     const gl::Texture& fragment_counts() const { return fragment_counts_; }
@@ -43,6 +45,8 @@ public:
     std::vector<gl::Resource> resources() const;
 
 private:
+    MadeFrom<Revision> made_from_;
+    Revision revision_ = 0;
     Voxelizer voxelizer_;
     gl::Program mark_, next_level_;
     gl::Texture occupancy_, fragment_counts_;

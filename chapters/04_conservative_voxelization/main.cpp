@@ -39,7 +39,7 @@ try {
 
     while (app.next_frame()) {
         // Triangles -> occupied voxels, at all levels.
-        app.pass("voxelize", [&] { voxelizer.run(scene, grid); });
+        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid); });
 
         // Occupied voxels -> picture.
         if (app.shows("fragments")) view_params.level = 0;

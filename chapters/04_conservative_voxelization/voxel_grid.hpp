@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/parameters.hpp"
+#include "common/bindings.glsl"
 #include "common/voxel_structs.glsl"
 #include "gl/handles.hpp"
 #include "scene/scene.hpp"
@@ -18,7 +19,7 @@ void add_parameters(ParameterTable& table, VoxelGridParams& params);
 // 2^(levels - 1), so that the levels of the pyramid halve exactly; the padding stays empty.
 shared::GridData make_grid(const Bounds& bounds, const VoxelGridParams& params);
 
-// The grid as passes bind it: uniform block 1 (shaders/common/voxel_grid.glsl).
+// The grid as passes bind it: kGridBlock (shaders/common/voxel_grid.glsl).
 class VoxelGrid {
 public:
     VoxelGrid(const Bounds& bounds, const VoxelGridParams& params);
@@ -26,7 +27,7 @@ public:
     glm::ivec3 size() const { return glm::ivec3(data_.size); }
     int levels() const { return data_.size.w; }
     float voxel_size_m() const { return data_.origin.w; }
-    void bind() const { buffer_.bind(GL_UNIFORM_BUFFER, 1); }
+    void bind() const { buffer_.bind(GL_UNIFORM_BUFFER, shared::kGridBlock); }
 
 private:
     shared::GridData data_;

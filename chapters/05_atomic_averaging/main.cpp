@@ -61,10 +61,10 @@ try {
 
     while (app.next_frame()) {
         // Triangles -> occupied voxels.
-        app.pass("voxelize", [&] { voxelizer.run(scene, grid); });
+        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid); });
 
         // Occupied voxels -> list of faces -> sums over fragments -> means.
-        app.pass("average", [&] { faces.run(scene, grid, voxelizer); });
+        app.pass("average", Scope::scene, [&] { return faces.run(scene, grid, voxelizer); });
         for (NaiveAverage& average : naive) app.pass("naive average", [&] { average.run(scene, grid, voxelizer); });
 
         if (count_changes) changes.look(faces, naive.empty() ? nullptr : &naive.front());

@@ -73,8 +73,8 @@ void VoxelFaces::make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& 
     const GLuint block_groups = gl::group_count(std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z), 64);
     grid.bind();
     voxelizer.occupancy().bind(shared::kOccupancyUnit);
-    statistics_->bind(GL_SHADER_STORAGE_BUFFER, 5);
-    block_counts_.bind(GL_SHADER_STORAGE_BUFFER, 6);
+    statistics_->bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
+    block_counts_.bind(GL_SHADER_STORAGE_BUFFER, shared::kBlockBinding);
 
     // Count, by blocks.
     count_blocks_.use();
@@ -95,23 +95,25 @@ void VoxelFaces::make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& 
     voxel_groups_ = dispatch_of("voxel dispatch", counted_.voxels);
     face_index_.clear();
     face_index_.bind_image(1, 0, GL_WRITE_ONLY);
-    voxel_list_.bind(GL_SHADER_STORAGE_BUFFER, 7);
-    face_list_.bind(GL_SHADER_STORAGE_BUFFER, 8);
+    voxel_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelListBinding);
+    face_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceListBinding);
     write_list_.use();
     glDispatchCompute(block_groups, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                     GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
+bool VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
 {
+    if (!made_from_.differs(voxelizer.revision())) return false;
+    ++revision_;
     make_lists(grid, voxelizer);
 
     // Add up the fragments of every face.
     grow(sums_, "face sums", counted_.faces * 2 * shared::kSumCount * sizeof(GLuint));
     grow(faces_, "faces", counted_.faces * sizeof(shared::VoxelFace));
     sums_.clear();
-    sums_.bind(GL_SHADER_STORAGE_BUFFER, 9);
+    sums_.bind(GL_SHADER_STORAGE_BUFFER, shared::kSumBinding);
     face_index_.bind_image(0, 0, GL_READ_ONLY);
     for_each_column(accumulate_program(scene, voxelizer.voxelizer()), voxelizer.voxelizer(), scene, grid, voxelizer.column_plane());
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -122,14 +124,15 @@ void VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const Conserv
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, face_groups_.id());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    return true;
 }
 
 void VoxelFaces::bind() const
 {
-    statistics_->bind(GL_SHADER_STORAGE_BUFFER, 5);
-    voxel_list_.bind(GL_SHADER_STORAGE_BUFFER, 7);
-    face_list_.bind(GL_SHADER_STORAGE_BUFFER, 8);
-    faces_.bind(GL_SHADER_STORAGE_BUFFER, 10);
+    statistics_->bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
+    voxel_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelListBinding);
+    face_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceListBinding);
+    faces_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceBinding);
     face_index_.bind(shared::kFaceIndexUnit);
 }
 
@@ -149,14 +152,18 @@ const gl::Texture& FaceViewPass::run(const VoxelGrid& grid, const gl::Texture& o
 {
     gl::fit_to_pixels(color_, framebuffer_, "face view", GL_RGBA16F, size);
     grid.bind();
-    camera.bind(GL_UNIFORM_BUFFER, 0);
+    camera.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     occupancy.bind(shared::kOccupancyUnit);
     faces.face_index().bind(shared::kFaceIndexUnit);
     if (quantity.packed != nullptr) quantity.packed->bind(shared::kPackedColorUnit);
-    if (quantity.buffer != nullptr) quantity.buffer->bind(GL_SHADER_STORAGE_BUFFER, 10);
+    if (quantity.buffer != nullptr) quantity.buffer->bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceBinding);
+    if (quantity.plus != nullptr) quantity.plus->bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBinding);
     program_.set("stride", quantity.stride);
     program_.set("offset", quantity.offset);
     program_.set("show", quantity.show);
+    program_.set("has_plus", quantity.plus != nullptr);
+    program_.set("plus_stride", quantity.plus_stride);
+    program_.set("plus_offset", quantity.plus_offset);
     program_.set("has_packed", quantity.packed != nullptr);
     gl::draw_pixels(program_, framebuffer_, no_vertices_, size);
     return color_;

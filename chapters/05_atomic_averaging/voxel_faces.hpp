@@ -5,6 +5,7 @@
 
 #include "04_conservative_voxelization/conservative_voxelizer.hpp"
 #include "app/statistics.hpp"
+#include "gl/made_from.hpp"
 
 namespace conebook {
 
@@ -22,8 +23,11 @@ public:
 
     // Make the lists from voxelizer.occupancy(), add up all fragments, divide. Reads two counters back to the CPU to
     // size the buffers; throws std::runtime_error when the scene has more faces than an index holds (2^26).
-    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    // Does nothing while the voxelizer has not run again; says whether it did.
+    bool run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
 
+    // Changes whenever the lists or the means do.
+    Revision revision() const { return revision_; }
     std::size_t voxel_count() const { return counted_.voxels; }
     std::size_t face_count() const { return counted_.faces; }
     const shared::VoxelStatistics& counted() const { return counted_; }
@@ -37,7 +41,7 @@ public:
     const gl::Buffer& voxel_groups() const { return voxel_groups_; }   // indirect dispatch: 64 voxels a work group
     std::vector<gl::Resource> resources() const;
 
-    // Storage 5 (counters), 7 (voxel list), 8 (face list), 10 (faces), kFaceIndexUnit.
+    // kVoxelCounterBinding, kVoxelListBinding, kFaceListBinding, kFaceBinding, kFaceIndexUnit.
     void bind() const;
 
 private:
@@ -50,6 +54,8 @@ private:
     gl::Buffer block_counts_, voxel_list_, face_list_, sums_, faces_, face_groups_, voxel_groups_;
     const gl::Buffer* statistics_;  // of the voxelizer
     shared::VoxelStatistics counted_{};
+    MadeFrom<Revision> made_from_;
+    Revision revision_ = 0;
 };
 
 // Which part of a face to show.
@@ -58,6 +64,8 @@ struct FaceQuantity {
     int stride = 1, offset = 0;          // in vec4
     int show = 0;                        // 0 colour, 1 direction, 2 alpha, 3 `packed` instead, 4 their difference
     const gl::Texture* packed = nullptr;
+    const gl::Buffer* plus = nullptr;    // added, as `buffer` with the next two
+    int plus_stride = 1, plus_offset = 0;
 };
 
 class FaceViewPass {

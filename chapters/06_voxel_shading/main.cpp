@@ -38,7 +38,7 @@ try {
     ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
     ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
     VoxelFaces faces(app.shaders(), grid, voxelizer);
-    VoxelShading shading(app.shaders(), shading_params);
+    VoxelShading shading(app.shaders());
     FaceViewPass face_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
@@ -46,20 +46,22 @@ try {
         // snippet: frame
         // What the lights see, unless rays through the voxels are to tell.
         if (shading_params.voxel_shadows == int(VoxelShadows::map))
-            app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
 
         // Triangles -> occupied voxels -> list of faces with their mean material.
-        app.pass("voxelize", [&] { voxelizer.run(scene, grid); });
-        app.pass("average", [&] { faces.run(scene, grid, voxelizer); });
+        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid); });
+        app.pass("average", Scope::scene, [&] { return faces.run(scene, grid, voxelizer); });
 
         // Material and lights -> radiance of every face.
-        app.pass("voxel shading", [&] { shading.run(scene, grid, voxelizer, faces, shadow_maps); });
+        app.pass("voxel shading", Scope::light, [&] {
+            return shading.run(scene, grid, voxelizer, faces, shadow_maps, shading_params);
+        });
         // end snippet
 
         // Faces -> picture. Offsets within shared::VoxelFace are in vec4.
         constexpr int kFaceStride = int(sizeof(shared::VoxelFace) / sizeof(glm::vec4));
-        FaceQuantity quantity{&shading.radiance(), 1, 0, 0, nullptr};
-        if (app.shows("visibility")) quantity.show = 2;
+        FaceQuantity quantity{&shading.radiance(), 1, 0, 0, nullptr, &faces.faces(), kFaceStride, 2};
+        if (app.shows("visibility")) quantity = {&shading.radiance(), 1, 0, 2, nullptr};
         if (app.shows("base_color")) quantity = {&faces.faces(), kFaceStride, 0, 0, nullptr};
         if (app.shows("normal")) quantity = {&faces.faces(), kFaceStride, 1, 1, nullptr};
         if (app.shows("emission")) quantity = {&faces.faces(), kFaceStride, 2, 0, nullptr};

@@ -11,35 +11,34 @@ void add_parameters(ParameterTable& table, VoxelShadingParams& params)
               "soft_ray: distance at which a hit still blocks everything");
 }
 
-VoxelShading::VoxelShading(gl::Shaders& shaders, const VoxelShadingParams& params)
-    : params_(params),
-      program_(shaders.load({"06_voxel_shading/direct.comp"},
-                            {{"SHADOWS", std::to_string(params.voxel_shadows)},
-                             {"DIRECTIONAL_LAMBERT", std::to_string(params.voxel_lambert)}}))
-{
-}
+VoxelShading::VoxelShading(gl::Shaders& shaders) : program_(shaders, {"06_voxel_shading/direct.comp"}) {}
 
-void VoxelShading::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
-                       const VoxelFaces& faces, const ShadowMaps& shadow_maps)
+bool VoxelShading::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
+                       const VoxelFaces& faces, const ShadowMaps& shadow_maps, const VoxelShadingParams& params)
 {
+    if (!made_from_.differs(faces.revision(), scene.lights_revision(), shadow_maps.revision(), params)) return false;
+    ++revision_;
     if (radiance_.bytes() < faces.face_count() * sizeof(glm::vec4)) {
         radiance_ = gl::Buffer("face radiance", faces.face_count() * sizeof(glm::vec4));
         visibility_ = gl::Buffer("face visibility", faces.face_count() * sizeof(GLuint));
     }
-    program_.use();
+    const gl::Program& program = program_.with({{"SHADOWS", std::to_string(params.voxel_shadows)},
+                                                {"DIRECTIONAL_LAMBERT", std::to_string(params.voxel_lambert)}});
+    program.use();
     grid.bind();
     faces.bind();
     voxelizer.occupancy().bind(shared::kOccupancyUnit);
-    scene.bind_lights(program_);
-    shadow_maps.bind(program_);
-    program_.set("soft_sharpness", params_.soft_sharpness);
+    scene.bind_lights(program);
+    shadow_maps.bind(program);
+    program.set("soft_sharpness", params.soft_sharpness);
     // snippet: dispatch
-    radiance_.bind(GL_SHADER_STORAGE_BUFFER, 11);
-    visibility_.bind(GL_SHADER_STORAGE_BUFFER, 12);
+    radiance_.bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBinding);
+    visibility_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVisibilityBinding);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     // end snippet
+    return true;
 }
 
 }  // namespace conebook

@@ -15,24 +15,28 @@ struct VoxelShadingParams {
     int voxel_lambert = 0;
     // soft_ray: distance in voxels at which one hit still blocks everything, 0.1 .. 100.
     float soft_sharpness = 4.0f;
+    bool operator==(const VoxelShadingParams&) const = default;
 };
 void add_parameters(ParameterTable& table, VoxelShadingParams& params);
 
 class VoxelShading {
 public:
-    VoxelShading(gl::Shaders& shaders, const VoxelShadingParams& params);
+    explicit VoxelShading(gl::Shaders& shaders);
 
-    // L = Le + rho/pi E of every face, one thread a face by indirect dispatch.
-    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
-             const VoxelFaces& faces, const ShadowMaps& shadow_maps);
+    // L = rho/pi E of every face, one thread a face by indirect dispatch, if anything that it depends on has changed; says
+    // whether it has.
+    bool run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
+             const VoxelFaces& faces, const ShadowMaps& shadow_maps, const VoxelShadingParams& params);
+    Revision revision() const { return revision_; }
 
-    const gl::Buffer& radiance() const { return radiance_; }      // vec4 a face: rgb W/(sr m^2), a visibility 0..1
+    const gl::Buffer& radiance() const { return radiance_; }      // vec4 a face: rgb reflected W/(sr m^2), a visibility 0..1
     const gl::Buffer& visibility() const { return visibility_; }  // uint a face: 4 x 8 bit, lights 0 to 3
     std::vector<gl::Resource> resources() const { return {radiance_.resource(), visibility_.resource()}; }
 
 private:
-    VoxelShadingParams params_;
-    gl::Program program_;
+    gl::ProgramVariants program_;
+    MadeFrom<Revision, Revision, Revision, VoxelShadingParams> made_from_;  // faces, lights, shadow maps
+    Revision revision_ = 0;
     gl::Buffer radiance_, visibility_;
 };
 

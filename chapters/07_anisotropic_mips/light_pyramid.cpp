@@ -61,8 +61,8 @@ void OccupiedLevels::run(const VoxelGrid& grid, const VoxelFaces& faces)
     grid.bind();
     for (int level = 1; level < grid.levels(); ++level) {
         claimed.clear();
-        claimed.bind(GL_SHADER_STORAGE_BUFFER, 14);
-        (level == 1 ? faces.voxel_list() : lists_).bind(GL_SHADER_STORAGE_BUFFER, 7);
+        claimed.bind(GL_SHADER_STORAGE_BUFFER, shared::kClaimedBinding);
+        (level == 1 ? faces.voxel_list() : lists_).bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelListBinding);
         parents_.set("finer_begin", begin_[std::size_t(level - 1)]);
         dispatch(parents_, level, level - 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -71,8 +71,8 @@ void OccupiedLevels::run(const VoxelGrid& grid, const VoxelFaces& faces)
 
 void OccupiedLevels::dispatch(const gl::Program& program, int level, int items_of) const
 {
-    lists_.bind(GL_SHADER_STORAGE_BUFFER, 12);
-    levels_.bind(GL_SHADER_STORAGE_BUFFER, 13);
+    lists_.bind(GL_SHADER_STORAGE_BUFFER, shared::kOccupiedBinding);
+    levels_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLevelBinding);
     program.set("level", level);
     program.set("begin", begin_[std::size_t(level)]);
     program.use();
@@ -100,6 +100,7 @@ LightPyramid::LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const Py
 
 void LightPyramid::prepare(const VoxelGrid& grid, const VoxelFaces& faces)
 {
+    if (!prepared_for_.differs(faces.revision())) return;
     light_.clear();
     if (coverage_) coverage_.clear();
     occupied_.run(grid, faces);
@@ -109,7 +110,7 @@ void LightPyramid::bind() const
 {
     light_.bind(GLuint(shared::kLightAtlasUnit));
     if (coverage_) coverage_.bind(GLuint(shared::kCoverageAtlasUnit));
-    scale_.bind(GL_UNIFORM_BUFFER, 4);
+    scale_.bind(GL_UNIFORM_BUFFER, shared::kPyramidBlock);
 }
 
 void LightPyramid::bind_level(int level) const
@@ -118,19 +119,23 @@ void LightPyramid::bind_level(int level) const
     if (coverage_) coverage_.bind_image(1, level, GL_WRITE_ONLY);
 }
 
-void LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& face_radiance, LightPart part)
+bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& reflected, Revision revision,
+                       LightPart part)
 {
+    if (!made_from_.differs(faces.revision(), revision, part)) return false;
+    ++revision_;
+    prepare(grid, faces);
     constexpr GLbitfield kWrittenImage = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
     grid.bind();
     faces.bind();
     bind();
-    face_radiance.bind(GL_SHADER_STORAGE_BUFFER, 11);
-    constexpr glm::vec2 kWeights[] = {{1, 0}, {1, -1}, {0, 1}, {0, 0}};  // of radiance and emission
+    reflected.bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBinding);
+    constexpr glm::vec2 kWeights[] = {{1, 1}, {1, 0}, {0, 1}, {0, 0}};  // of what is reflected, and emitted
     if (format_ == LightFormat::rgba8) {
         constexpr glm::vec4 kLeast(1e-6f);  // so that what is black is not divided by 0
         scale_.write(0, sizeof kLeast, &kLeast);
         largest_radiance_.set("part", kWeights[int(part)]);
-        scale_.bind(GL_SHADER_STORAGE_BUFFER, 13);
+        scale_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightScaleBinding);
         largest_radiance_.use();
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
         glDispatchComputeIndirect(0);
@@ -151,22 +156,12 @@ void LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
         occupied_.dispatch(next_level_, level);
         glMemoryBarrier(kWrittenImage);
     }
+    return true;
 }
 
-PyramidProgram::PyramidProgram(gl::Shaders& shaders, std::vector<std::string> files, gl::Defines defines)
-    : shaders_(&shaders), files_(std::move(files)), defines_(std::move(defines)), whole_(shaders.load(files_, defines_))
+gl::Defines LightPyramid::defines() const
 {
-}
-
-const gl::Program& PyramidProgram::reading(const LightPyramid& pyramid)
-{
-    if (pyramid.format() != LightFormat::r11g11b10f) return whole_;
-    if (split_.id() == 0) {
-        gl::Defines defines = defines_;
-        defines.insert(kSplitCoverage.begin(), kSplitCoverage.end());
-        split_ = shaders_->load(files_, defines);
-    }
-    return split_;
+    return format_ == LightFormat::r11g11b10f ? kSplitCoverage : gl::Defines{};
 }
 
 PyramidViewPass::PyramidViewPass(gl::Shaders& shaders)
@@ -181,10 +176,10 @@ const gl::Texture& PyramidViewPass::run(const VoxelGrid& grid, const gl::Texture
 {
     gl::fit_to_pixels(color_, framebuffer_, "pyramid view", GL_RGBA16F, size);
     grid.bind();
-    camera.bind(GL_UNIFORM_BUFFER, 0);
+    camera.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     occupancy.bind(shared::kOccupancyUnit);
     pyramid.bind();
-    const gl::Program& program = program_.reading(pyramid);
+    const gl::Program& program = program_.with(pyramid.defines());
     program.set("level", std::min(level, grid.levels() - 1));
     program.set("direction", params.direction);
     program.set("show_coverage", show_coverage);

@@ -45,18 +45,20 @@ class LightPyramid {
 public:
     LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params);
 
-    // Needed when other voxels become occupied, before run(): empties all levels and lists what they will hold.
-    void prepare(const VoxelGrid& grid, const VoxelFaces& faces);
-    // All levels from `face_radiance` (vec4 a face: rgb in W/(sr m^2)), emission included.
-    void run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& face_radiance,
+    // All levels from what the faces reflect (vec4 a face: rgb in W/(sr m^2), of that revision) and emit, `part` of it; if
+    // any of that has changed. Says whether it has.
+    bool run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& reflected, Revision revision,
              LightPart part = LightPart::all);
+    Revision revision() const { return revision_; }
 
-    // kLightAtlasUnit, kCoverageAtlasUnit and uniform block 4, for shaders that include common/pyramid.glsl.
+    // kLightAtlasUnit, kCoverageAtlasUnit and uniform block 4, for shaders that include 07_anisotropic_mips/pyramid.glsl.
     void bind() const;
     // kEmissionAtlasUnit, beside another one that is bound as above; format rgba16f.
     void bind_as_emission() const { light_.bind(GLuint(shared::kEmissionAtlasUnit)); }
     LightFormat format() const { return format_; }
-    // Six times the grid's width (face * size.x + x), all levels of the grid; see common/pyramid.glsl.
+    // For programs that include 07_anisotropic_mips/pyramid.glsl.
+    gl::Defines defines() const;
+    // Six times the grid's width (face * size.x + x), all levels of the grid; see 07_anisotropic_mips/pyramid.glsl.
     const gl::Texture& light() const { return light_; }
     // r8 of the same size, of format r11g11b10f alone.
     const gl::Texture& coverage() const { return coverage_; }
@@ -66,26 +68,17 @@ public:
     }
 
 private:
+    // When other voxels become occupied: empties all levels and lists what they will hold.
+    void prepare(const VoxelGrid& grid, const VoxelFaces& faces);
     void bind_level(int level) const;
+    MadeFrom<Revision> prepared_for_;                        // faces
+    MadeFrom<Revision, Revision, LightPart> made_from_;      // faces, what they reflect
+    Revision revision_ = 0;
     LightFormat format_;
     gl::Program largest_radiance_, base_, next_level_;
     OccupiedLevels occupied_;
     gl::Texture light_, coverage_;
     gl::Buffer scale_;
-};
-
-// A program that reads the pyramids, compiled for the format that they are kept in.
-class PyramidProgram {
-public:
-    // `shaders` must outlive this. Throws as Shaders::load does.
-    PyramidProgram(gl::Shaders& shaders, std::vector<std::string> files, gl::Defines defines = {});
-    const gl::Program& reading(const LightPyramid& pyramid);
-
-private:
-    gl::Shaders* shaders_;
-    std::vector<std::string> files_;
-    gl::Defines defines_;
-    gl::Program whole_, split_;  // split: made when the first pyramid comes that has its coverage apart
 };
 
 struct PyramidViewParams {
@@ -102,7 +95,7 @@ public:
                            glm::ivec2 size, const LightPyramid* emission = nullptr);
 
 private:
-    PyramidProgram program_;
+    gl::ProgramVariants program_;
     gl::VertexArray no_vertices_;
     gl::Texture color_;
     gl::Framebuffer framebuffer_;

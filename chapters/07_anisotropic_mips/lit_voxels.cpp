@@ -8,31 +8,35 @@ void add_parameters(ParameterTable& table, LitVoxelParams& params)
     add_parameters(table, params.voxelizer);
     add_parameters(table, params.shading);
     add_parameters(table, params.pyramid);
-    table.add("voxelize_every_frame", params.voxelize_every_frame, "voxelize again in every frame, for measuring");
+    table.add("update", params.update, {"on_change", "always"}, "when passes run that do not depend on the camera");
 }
 
 LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params)
-    : every_frame_(params.voxelize_every_frame),
+    : params_(params),
       grid_(scene.bounds(), params.grid),
       voxelizer_(shaders, grid_, params.voxelizer),
       faces_(shaders, grid_, voxelizer_),
-      shading_(shaders, params.shading),
+      shading_(shaders),
       pyramid_(shaders, grid_, params.pyramid)
 {
 }
 
-void LitVoxels::run(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps, LightPart part)
+void LitVoxels::shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps)
 {
-    are_new_ = app.frame() == 0 || every_frame_;
-    if (are_new_) {
-        // Triangles -> occupied voxels -> mean material of their faces.
-        app.pass("voxelize", [&] { voxelizer_.run(scene, grid_); });
-        app.pass("average", [&] { faces_.run(scene, grid_, voxelizer_); });
-        pyramid_.prepare(grid_, faces_);
-    }
-    // Material and lights -> radiance of the faces -> radiance of all levels.
-    app.pass("voxel shading", [&] { shading_.run(scene, grid_, voxelizer_, faces_, shadow_maps); });
-    app.pass("light pyramid", [&] { pyramid_.run(grid_, faces_, shading_.radiance(), part); });
+    // Triangles -> occupied voxels -> mean material of their faces; all that follows from them runs when they do.
+    if (params_.update == int(Update::always)) voxelizer_.forget();
+    app.pass("voxelize", Scope::scene, [&] { return voxelizer_.run(scene, grid_); });
+    app.pass("average", Scope::scene, [&] { return faces_.run(scene, grid_, voxelizer_); });
+    // Material and lights -> radiance of the faces.
+    app.pass("voxel shading", Scope::light,
+             [&] { return shading_.run(scene, grid_, voxelizer_, faces_, shadow_maps, params_.shading); });
+}
+
+void LitVoxels::filter(App& app, LightPart part) { filter(app, shading_.radiance(), shading_.revision(), part); }
+
+void LitVoxels::filter(App& app, const gl::Buffer& reflected, Revision revision, LightPart part)
+{
+    app.pass("light pyramid", Scope::light, [&] { return pyramid_.run(grid_, faces_, reflected, revision, part); });
 }
 
 std::vector<gl::Resource> LitVoxels::resources() const

@@ -1,4 +1,4 @@
-// The first half of every later frame, chapters 04 to 07 in order: triangles -> voxels -> faces -> light -> pyramids.
+// Chapters 04 to 07 in order: triangles -> voxels -> faces -> the light that they reflect -> pyramids.
 #pragma once
 
 #include "07_anisotropic_mips/light_pyramid.hpp"
@@ -6,34 +6,37 @@
 
 namespace conebook {
 
+// on_change: a pass runs when something that its result depends on has changed; always: in every frame, for measuring.
+enum class Update : int { on_change = 0, always = 1 };
+
 struct LitVoxelParams {
     VoxelGridParams grid;
     VoxelizerParams voxelizer;
     VoxelShadingParams shading;
     PyramidParams pyramid;
-    // Geometry that stands still is voxelized in the first frame only; on, it is done in every frame, for measuring.
-    bool voxelize_every_frame = false;
+    int update = int(Update::on_change);
 };
 void add_parameters(ParameterTable& table, LitVoxelParams& params);
 
 class LitVoxels {
 public:
     LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params);
-    // The pyramid gets that part of the faces' light.
-    void run(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps, LightPart part = LightPart::all);
-    bool are_new() const { return are_new_; }  // the last run has voxelized
+    // What the faces reflect of the light that comes straight from the lights.
+    void shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps);
+    // The pyramids of that part of their light, or of `reflected` instead of what shade() made.
+    void filter(App& app, LightPart part = LightPart::all);
+    void filter(App& app, const gl::Buffer& reflected, Revision revision, LightPart part);
 
     const VoxelGrid& grid() const { return grid_; }
     const ConservativeVoxelizer& voxelizer() const { return voxelizer_; }
     const VoxelFaces& faces() const { return faces_; }
     const VoxelShading& shading() const { return shading_; }
     const LightPyramid& pyramid() const { return pyramid_; }
-    LightPyramid& pyramid() { return pyramid_; }
     std::vector<gl::Resource> resources() const;
     std::vector<Count> counts() const;
 
 private:
-    bool every_frame_, are_new_ = false;
+    const LitVoxelParams& params_;
     VoxelGrid grid_;
     ConservativeVoxelizer voxelizer_;
     VoxelFaces faces_;

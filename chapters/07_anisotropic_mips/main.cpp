@@ -39,10 +39,11 @@ try {
         // snippet: frame
         // What the lights see, for the voxels.
         if (voxel_params.shading.voxel_shadows == int(VoxelShadows::map))
-            app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
-        voxels.run(app, scene, shadow_maps);
+        voxels.shade(app, scene, shadow_maps);
+        voxels.filter(app);
         // end snippet
 
         // One level and direction -> picture.

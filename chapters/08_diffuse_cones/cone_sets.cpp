@@ -21,6 +21,7 @@ struct Ring {
 std::vector<Ring> rings_of(int count)
 {
     switch (count) {
+    case 1: return {{1, 1.0}};
     case 5: return {{1, 0.2}, {4, 0.2}};
     case 6: return {{1, 0.25}, {5, 0.15}};
     case 9: return {{2, 1.0 / 9}, {7, 1.0 / 9}};
@@ -33,7 +34,11 @@ std::vector<Ring> rings_of(int count)
 double first_moment_of(double cos_tilt, double half_angle_rad) { return cos_tilt * (1.0 + std::cos(half_angle_rad)) / 2; }
 
 // A cone's solid angle 2 pi (1 - cos a) is its share of the hemisphere's 2 pi; six are the usual 60 degrees.
-double default_half_angle(int count) { return count == 6 ? kPi / 6 : std::acos(1.0 - 1.0 / count); }
+// One cone alone would be the whole hemisphere; it is held to 120 degrees.
+double default_half_angle(int count)
+{
+    return count == 6 ? kPi / 6 : std::min(std::acos(1.0 - 1.0 / count), kPi / 3);
+}
 
 // Van der Corput's radical inverse in base 2.
 double radical_inverse(unsigned bits)

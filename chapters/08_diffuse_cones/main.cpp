@@ -1,14 +1,15 @@
-// 08_diffuse_cones: indirect diffuse light, one bounce, by a few wide cones from every pixel.
+// 08_diffuse_cones: indirect diffuse light, one bounce, by many narrow cones that leap over empty space.
 //
 // The hemisphere above a surface is divided among cones k with weights W_k that sum to 1:
 //
-//     L_o = rho * sum_k W_k L_k,     L_k = integral of (L sigma exp(-tau)) along the cone + exp(-tau_end) L_sky
+//     L_o = rho * sum_k W_k L_k,     L_k: the light where the coverage on the way passes the threshold of cone k, or the sky
 //
 // Page: docs/08_diffuse_cones.md
 #include "01_first_light/tone_map.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
-#include "08_diffuse_cones/diffuse_cones.hpp"
 #include "07_anisotropic_mips/lit_voxels.hpp"
+#include "08_diffuse_cones/composite.hpp"
+#include "08_diffuse_cones/diffuse_cones.hpp"
 #include "app/needs.hpp"
 
 using namespace conebook;
@@ -38,17 +39,22 @@ try {
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     GBuffer g_buffer(app.shaders(), app.size());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
-    const DiffuseConeUniforms cones(cone_params);
-    DiffuseCones diffuse_cones(app.shaders(), voxels.grid(), diffuse_params);
+    WalkVolume walk_volume(app.shaders());
+    ConeDirections directions;
+    DiffuseCones diffuse_cones(app.shaders());
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
     while (app.next_frame()) {
         // What the lights see.
-        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
-        voxels.run(app, scene, shadow_maps);
+        voxels.shade(app, scene, shadow_maps);
+        voxels.filter(app);
+
+        // Where rays may leap, and what they meet.
+        app.pass("walk volume", Scope::scene, [&] { return walk_volume.run(voxels.grid(), voxels.faces()); });
 
         // What the camera sees.
         g_buffer.resize(app.size());
@@ -64,7 +70,9 @@ try {
         // Light by way of one other surface: cones through the pyramids.
         const gl::Texture* gathered = nullptr;
         app.pass("diffuse cones", [&] {
-            gathered = &diffuse_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cones, cone_params);
+            directions.update(cone_params, 0);
+            gathered = &diffuse_cones.run(g_buffer, {voxels.grid(), voxels.pyramid(), walk_volume}, directions, cone_params,
+                                          diffuse_params);
         });
 
         // Sum.

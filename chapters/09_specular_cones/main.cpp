@@ -1,4 +1,4 @@
-// 09_specular_cones: glossy reflection by one cone a pixel, from mirror to matte.
+// 09_specular_cones: glossy reflection by a few cones a pixel, from mirror to matte.
 //
 // The GGX lobe around the mirror direction r becomes a cone that holds the share p of it; its mean radiance is weighted
 // with the lobe's directional albedo, which a table holds:
@@ -9,6 +9,7 @@
 #include "01_first_light/tone_map.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
 #include "07_anisotropic_mips/lit_voxels.hpp"
+#include "08_diffuse_cones/composite.hpp"
 #include "09_specular_cones/specular_cones.hpp"
 #include "app/needs.hpp"
 
@@ -41,8 +42,10 @@ try {
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     GBuffer g_buffer(app.shaders(), app.size());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
-    const DiffuseConeUniforms cones(cone_params);
-    DiffuseCones diffuse_cones(app.shaders(), voxels.grid(), diffuse_params);
+    WalkVolume walk_volume(app.shaders());
+    const ConeVolumes volumes{voxels.grid(), voxels.pyramid(), walk_volume};
+    ConeDirections directions;
+    DiffuseCones diffuse_cones(app.shaders());
     SpecularCones specular_cones(app.shaders());
     const bool reflective = has_specular_surfaces(app.scene());
     CompositePass composite(app.shaders());
@@ -50,10 +53,12 @@ try {
 
     while (app.next_frame()) {
         // What the lights see.
-        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
 
-        // Triangles -> voxels -> radiance -> six pyramids.
-        voxels.run(app, scene, shadow_maps);
+        // Triangles -> voxels -> radiance -> six pyramids, and where rays may leap.
+        voxels.shade(app, scene, shadow_maps);
+        voxels.filter(app);
+        app.pass("walk volume", Scope::scene, [&] { return walk_volume.run(voxels.grid(), voxels.faces()); });
 
         // What the camera sees, and what of it the lights reach.
         const gl::Texture* direct = nullptr;
@@ -67,13 +72,14 @@ try {
         // Wide cones for the diffuse lobe.
         const gl::Texture *gathered = nullptr, *specular = nullptr;
         app.pass("diffuse cones", [&] {
-            gathered = &diffuse_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cones, cone_params);
+            directions.update(cone_params, 0);
+            gathered = &diffuse_cones.run(g_buffer, volumes, directions, cone_params, diffuse_params);
         });
 
         // One cone along the mirror direction for the specular lobe, if any surface has one.
         if (reflective)
             app.pass("specular cones", [&] {
-                specular = &specular_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cone_params, specular_params);
+                specular = &specular_cones.run(g_buffer, volumes, cone_params, specular_params);
             });
 
         // Sum.

@@ -1,5 +1,9 @@
 #include "09_specular_cones/specular_cones.hpp"
 
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
 #include "09_specular_cones/directional_albedo.hpp"
 #include "gl/pixel_pass.hpp"
 
@@ -12,9 +16,8 @@ void add_parameters(ParameterTable& table, SpecularConeParams& params)
     table.add("specular_start", params.specular_start, 0.0, 8.0, "voxels", "from the surface to the specular cone's start");
 }
 
-SpecularCones::SpecularCones(gl::Shaders& shaders, bool emission_apart)
-    : trace_(shaders, {"common/fullscreen.vert", "09_specular_cones/specular.frag"}, 
-             {{"PLAIN", "0"}, {"EMITTED", emission_apart ? "1" : "0"}}),
+SpecularCones::SpecularCones(gl::Shaders& shaders, const std::string& folder)
+    : trace_(shaders, {"common/fullscreen.vert", folder + "/specular.frag"}),
       share_(shaders.load({"common/fullscreen.vert", "09_specular_cones/specular_share.frag"}))
 {
     constexpr int kTableSize = 32, kSamples = 2048;  // within 0.5 %, tests/09_specular_cones_test.cpp
@@ -24,35 +27,34 @@ SpecularCones::SpecularCones(gl::Shaders& shaders, bool emission_apart)
     directional_albedo_.set_filter(GL_LINEAR, GL_LINEAR);
 }
 
-void SpecularCones::bind(const gl::Program& program, const ConeParams& cone_params,
-                         const SpecularConeParams& params) const
+void SpecularCones::bind(const gl::Program& program, const ConeParams& cones, const SpecularConeParams& params,
+                         int sample) const
 {
-    set_cone_march(program, cone_params);
+    set_cones(program, cones);
     program.set("start_offset", params.specular_start);
-    program.set("interleave", cone_params.interleave == int(Interleave::on));
+    program.set("interleave", cones.interleave == int(Interleave::on));
     program.set("specular_cones", params.specular_cones);
     program.set("lobe_share", params.lobe_share);
+    constexpr float kGoldenAngle_rad = 2.39996323f;
+    program.set("turn", std::fmod(float(sample) * kGoldenAngle_rad, 2.0f * glm::pi<float>()));
 }
 
-const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid,
-                                      const ConeParams& cone_params, const SpecularConeParams& params,
-                                      const EmittedLight& emitted)
+const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
+                                      const SpecularConeParams& params, int sample)
 {
     gl::fit_to_pixels(lobe_light_, lobe_framebuffer_, "light in the lobe", GL_RGBA16F, g_buffer.size());
     gl::fit_to_pixels(specular_, specular_framebuffer_, "specular light", GL_RGBA16F, g_buffer.size());
     // The mean of the light in every pixel's lobe, or in its part of a wide one.
     g_buffer.bind();
-    grid.bind();
-    pyramid.bind();
-    const gl::Program& trace = trace_.reading(pyramid);
-    bind(trace, cone_params, params);
-    emitted.bind(trace);
+    volumes.bind();
+    const gl::Program& trace = trace_.with(volumes.pyramid.defines());
+    bind(trace, cones, params, sample);
     gl::draw_pixels(trace, specular_framebuffer_, no_vertices_, g_buffer.size());
 
     // Neighbours share wide lobes, there and back again; then what the surface reflects of it.
     directional_albedo_.bind(16);
-    share_.set("interleave", cone_params.interleave == int(Interleave::on));
-    share_.set("plane_tolerance", grid.voxel_size_m());
+    share_.set("interleave", cones.interleave == int(Interleave::on));
+    share_.set("plane_tolerance", volumes.grid.voxel_size_m());
     specular_.bind(17);
     share_.set("window_begin", -2);
     share_.set("reflect_it", false);

@@ -14,25 +14,28 @@ struct SpecularConeParams {
     // Voxels from the middle of the surface's own voxel to the cone's start, 0 .. 8: a narrow cone that starts nearer shows
     // the voxels of its own surface as a pattern.
     float specular_start = 1.5f;
+    bool operator==(const SpecularConeParams&) const = default;
 };
 void add_parameters(ParameterTable& table, SpecularConeParams& params);
 
 class SpecularCones {
 public:
-    // `emission_apart`: run() is given what surfaces emit beside what they reflect.
-    explicit SpecularCones(gl::Shaders& shaders, bool emission_apart = false);
+    // `folder` below shaders/ holds specular.frag; later chapters have their own.
+    explicit SpecularCones(gl::Shaders& shaders, const std::string& folder = "09_specular_cones");
 
-    // RGBA16F of the g-buffer's size: radiance towards the camera.
-    const gl::Texture& run(const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid,
-                           const ConeParams& cone_params, const SpecularConeParams& params,
-                           const EmittedLight& emitted = {});
-    std::vector<gl::Resource> resources() const { return {lobe_light_.resource(), specular_.resource(), directional_albedo_.resource()}; }
+    // RGBA16F of the g-buffer's size: radiance towards the camera. `sample` as in ConeDirections.
+    const gl::Texture& run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
+                           const SpecularConeParams& params, int sample = 0);
+    std::vector<gl::Resource> resources() const
+    {
+        return {lobe_light_.resource(), specular_.resource(), directional_albedo_.resource()};
+    }
 
-    // What specular.frag reads beside g-buffer, grid and pyramid, for `program`, which may be a variant of it.
-    void bind(const gl::Program& program, const ConeParams& cone_params, const SpecularConeParams& params) const;
+    // What specular.frag reads beside g-buffer and volumes, for `program`, which may be a variant of it.
+    void bind(const gl::Program& program, const ConeParams& cones, const SpecularConeParams& params, int sample) const;
 
 private:
-    PyramidProgram trace_;
+    gl::ProgramVariants trace_;
     gl::Program share_;
     gl::VertexArray no_vertices_;
     gl::Texture directional_albedo_, lobe_light_, specular_;

@@ -32,19 +32,21 @@ try {
 
     const GpuScene scene(app.scene());
     ShadowMaps shadow_maps(app.shaders(), scene, shadow_map_params);
-    const bool asks_maps = ask_shadow_maps(shadow_params, voxel_params.shading);
+    const bool asks_maps =
+        asks_shadow_maps(shadow_params) || voxel_params.shading.voxel_shadows == int(VoxelShadows::map);
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     GBuffer g_buffer(app.shaders(), app.size());
-    SoftShadowLighting lighting(app.shaders(), voxels.grid(), ShadowMethod(shadow_params.shadows));
+    SoftShadowLighting lighting(app.shaders());
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
     while (app.next_frame()) {
         // What the lights see, if pixels or voxels ask.
-        if (asks_maps) app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+        if (asks_maps) app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
-        voxels.run(app, scene, shadow_maps);
+        voxels.shade(app, scene, shadow_maps);
+        voxels.filter(app);
 
         // What the camera sees.
         g_buffer.resize(app.size());
@@ -72,7 +74,7 @@ try {
          {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(), lighting.resources()})
         app.statistics().add_resources(part);
     for (const auto& needs :
-         {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene), lighting.needs()})
+         {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene), lighting.needs(shadow_params)})
         app.statistics().add_needs(needs);
     app.statistics().add_needs({light_need(app.scene()), sky_need(cone_params.sky)});
     return app.finish();

@@ -14,24 +14,23 @@ void add_parameters(ParameterTable& table, SoftShadowParams& params)
               "faces along the cone cancel those against it; off: stripes");
 }
 
-SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders, const VoxelGrid& grid, ShadowMethod method)
-    : method_(method),
-      lighting_(shaders, {"common/fullscreen.vert", "10_soft_shadows/soft_lighting.frag"},
-                {{"METHOD", std::to_string(int(method))}, {"PLAIN", "0"}})
+SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders)
+    : lighting_(shaders, {"common/fullscreen.vert", "10_soft_shadows/soft_lighting.frag"}),
+      fill_volume_(shaders.load({"10_soft_shadows/visibility_volume.comp"}))
 {
-    if (method_ != ShadowMethod::volume) return;
-    fill_volume_ = shaders.load({"10_soft_shadows/visibility_volume.comp"});
-    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
-    visibility_volume_ = gl::texture_3d("visibility volume", GL_RGBA8, size);
-    visibility_volume_.set_filter(GL_LINEAR, GL_LINEAR);
 }
 
 void SoftShadowLighting::fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading)
 {
+    if (!visibility_volume_) {
+        visibility_volume_ =
+            gl::texture_3d("visibility volume", GL_RGBA8, grid.size() * glm::ivec3(shared::kFaceCount, 1, 1));
+        visibility_volume_.set_filter(GL_LINEAR, GL_LINEAR);
+    }
     visibility_volume_.clear();
     grid.bind();
     faces.bind();
-    shading.visibility().bind(GL_SHADER_STORAGE_BUFFER, 12);
+    shading.visibility().bind(GL_SHADER_STORAGE_BUFFER, shared::kVisibilityBinding);
     visibility_volume_.bind_image(0, 0, GL_WRITE_ONLY);
     fill_volume_.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
@@ -55,14 +54,16 @@ const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuSce
                                            bool show_visibility)
 {
     gl::fit_to_pixels(color_, framebuffer_, "softly shadowed light", GL_RGBA32F, g_buffer.size());
-    if (method_ == ShadowMethod::volume) fill_volume(grid, faces, shading);
+    if (params.shadows == int(ShadowMethod::volume)) fill_volume(grid, faces, shading);
     g_buffer.bind();
     grid.bind();
     pyramid.bind();
-    const gl::Program& lighting = lighting_.reading(pyramid);
+    gl::Defines defines = pyramid.defines();
+    defines["METHOD"] = std::to_string(params.shadows);
+    const gl::Program& lighting = lighting_.with(defines);
     scene.bind_lights(lighting);
     shadow_maps.bind(lighting);
-    set_cone_march(lighting, cone_params);
+    set_cones(lighting, cone_params);
     lighting.set("start_offset", cone_params.start_offset);
     lighting.set("light_radius", params.light_radius);
     lighting.set("light_half_angle", glm::radians(0.5f * params.light_angle));
@@ -78,12 +79,12 @@ std::vector<gl::Resource> SoftShadowLighting::resources() const
     return {color_.resource(), visibility_volume_.resource()};
 }
 
-std::vector<Need> SoftShadowLighting::needs() const
+std::vector<Need> SoftShadowLighting::needs(const SoftShadowParams& params) const
 {
     constexpr const char* kAsked[] = {"shadows=map", "shadows=cone", "shadows=volume"};
-    const std::string asked = kAsked[int(method_)];
-    return {{"shadow cones", method_ == ShadowMethod::cone, asked},
-            {"visibility volume", method_ == ShadowMethod::volume, asked}};
+    const std::string asked = kAsked[params.shadows];
+    return {{"shadow cones", params.shadows == int(ShadowMethod::cone), asked},
+            {"visibility volume", params.shadows == int(ShadowMethod::volume), asked}};
 }
 
 }  // namespace conebook

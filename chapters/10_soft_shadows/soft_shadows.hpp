@@ -2,6 +2,7 @@
 #pragma once
 
 #include "07_anisotropic_mips/lit_voxels.hpp"
+#include "08_diffuse_cones/composite.hpp"
 #include "08_diffuse_cones/diffuse_cones.hpp"
 
 namespace conebook {
@@ -20,18 +21,16 @@ struct SoftShadowParams {
     // Subtract the faces that look along the cone from those that look against it. Off: slanted surfaces shadow
     // themselves, in stripes.
     bool shadow_net_faces = true;
+    bool operator==(const SoftShadowParams&) const = default;
 };
 void add_parameters(ParameterTable& table, SoftShadowParams& params);
 
-// Pixels or voxels look into the shadow maps.
-inline bool ask_shadow_maps(const SoftShadowParams& pixels, const VoxelShadingParams& voxels)
-{
-    return pixels.shadows == int(ShadowMethod::map) || voxels.voxel_shadows == int(VoxelShadows::map);
-}
+// Pixels look into the shadow maps.
+inline bool asks_shadow_maps(const SoftShadowParams& pixels) { return pixels.shadows == int(ShadowMethod::map); }
 
 class SoftShadowLighting {
 public:
-    SoftShadowLighting(gl::Shaders& shaders, const VoxelGrid& grid, ShadowMethod method);
+    explicit SoftShadowLighting(gl::Shaders& shaders);
 
     // RGBA32F of the g-buffer's size: radiance of direct light, or the mean visible share of the lights (0..1).
     // Of `cone_params`, step and start_offset count.
@@ -44,12 +43,11 @@ public:
                            const ShadowMaps& shadow_maps, const ConeParams& cone_params, const SoftShadowParams& params,
                            bool show_visibility);
     std::vector<gl::Resource> resources() const;
-    std::vector<Need> needs() const;
+    std::vector<Need> needs(const SoftShadowParams& params) const;
 
 private:
     void fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
-    ShadowMethod method_;
-    PyramidProgram lighting_;
+    gl::ProgramVariants lighting_;
     gl::Program fill_volume_;
     gl::VertexArray no_vertices_;
     gl::Texture visibility_volume_, color_;

@@ -1,17 +1,19 @@
-// Emitting surfaces as lights: rays aimed at them, and pyramids of what they emit for the cones that meet them nearby.
+// Emitting surfaces as lights: their exact light where nothing is in the way, and rays aimed at them that say what is.
 #pragma once
 
 #include <optional>
 
 #include "07_anisotropic_mips/lit_voxels.hpp"
 #include "09_specular_cones/specular_cones.hpp"
+#include "11_emissives/emitter_parts.hpp"
 
 namespace conebook {
 
 struct EmitterParams {
-    // Rays that every pixel, and every face of a voxel, aims at emitters, 0 .. 64; 0: emitters are met by chance alone.
+    // Rays that every point that gathers, and every face of a voxel, aims at emitters, 0 .. 64; 0: cones meet them by chance.
     // Neighbours share them as they share cones: 16 times as many parts of the emitters are seen.
     int aimed_rays = 6;
+    bool operator==(const EmitterParams&) const = default;
 };
 void add_parameters(ParameterTable& table, EmitterParams& params);
 
@@ -19,47 +21,39 @@ class Emitters {
 public:
     // Emission is kept apart where it is worth it: where something shines, and not so much of the scene that cones meet it
     // as well as aimed rays would.
-    Emitters(gl::Shaders& shaders, const Scene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
-             const EmitterParams& params);
+    Emitters(gl::Shaders& shaders, const Scene& scene, const VoxelGrid& grid, const EmitterParams& params);
 
     // What the pyramid of the voxels is to hold: all light, or what surfaces reflect where this keeps the rest.
     LightPart part_of_voxels() const { return apart_ ? LightPart::reflected : LightPart::all; }
     bool are_apart() const { return apart_; }
+    bool shine() const { return emitters_.emitting_share > 0.0; }
 
-    // From what the faces emit: the pyramid, and the parts to aim at; once for voxels that stay. Reads the faces back.
-    void run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
+    // If the faces have changed: a pyramid of what they emit.
+    bool run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
+    Revision revision() const { return revision_; }
 
-    // For diffuse cones, which gather what is near, and for specular cones, which gather all.
-    EmittedLight near_light() const;
-    EmittedLight all_light() const;
+    // Where SpecularCones find their program: this chapter's where emission is apart.
+    std::string specular_folder() const { return apart_ ? "11_emissives" : "09_specular_cones"; }
+    // For programs that include emitted_light.glsl.
+    void bind_emission() const;
+    // For programs that include emitters.glsl and are compiled with defines(): kEmitterBinding, kEmitterTriangleBinding.
+    void bind(const gl::Program& program) const;
+    gl::Defines defines() const { return {{"TRIANGLES", !emitters_.triangles.empty() ? "1" : "0"}}; }
     const LightPyramid* pyramid() const { return pyramid_ ? &*pyramid_ : nullptr; }
-
-    // For programs that include common/emitters.glsl: storage 14, near_light().
-    void bind(const gl::Program& program, const DiffuseConeUniforms& cones) const;
-
-    // E / pi at every pixel of what all cones gather and the aimed rays bring; as DiffuseCones::run.
-    const gl::Texture& gather(DiffuseCones& diffuse_cones, const GBuffer& g_buffer, const VoxelGrid& grid,
-                              const LightPyramid& pyramid, const DiffuseConeUniforms& cones, const ConeParams& params);
-    // Draw for every pixel what the aimed rays bring, with aimed.frag or a variant of it, and add it to the target.
-    void add_aimed(PyramidProgram& aimed, const GBuffer& g_buffer, const VoxelGrid& grid, const LightPyramid& pyramid,
-                   const DiffuseConeUniforms& cones, const ConeParams& params, const gl::Framebuffer& target) const;
     std::vector<gl::Resource> resources() const;
     Need need() const;
 
+    static constexpr int kSets = 16;  // of rays, as of cones
+
 private:
     EmitterParams params_;
-    const gl::Texture* occupancy_;  // of the voxelizer
-    float emitting_share_;          // of the scene's area
+    EmitterParts emitters_;
     bool apart_;
-    std::optional<PyramidProgram> aimed_;
     std::optional<LightPyramid> pyramid_;
-    gl::VertexArray no_vertices_;
-    gl::Buffer parts_;
-    float near_radius2_voxels_ = 0.0f;
+    gl::Buffer parts_, triangles_;
+    MadeFrom<Revision> made_from_;  // faces
+    Revision revision_ = 0;
 };
-
-// Share of the area of all triangles that belongs to shining materials.
-float emitting_share(const Scene& scene);
 
 // Power that the voxels emit, by colour channel: sum over faces of pi L A, in W. Reads the faces back.
 glm::dvec3 emitted_power_w(const VoxelFaces& faces, const VoxelGrid& grid);

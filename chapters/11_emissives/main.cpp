@@ -1,12 +1,12 @@
-// 11_emissives: surfaces that shine light the room: cones gather those nearby, rays are aimed at those far away.
+// 11_emissives: surfaces that shine light the room: exactly where nothing is in the way, and rays say what arrives.
 //
-//     E = sum_parts Le A cos cos' V / (d^2 + A / pi)   for parts of area A; a disc of radius R at height h above a plane
-//     gives E = pi Le R^2 / (R^2 + h^2)
+//     E = sum_triangles Le / 2 sum_edges angle (n . normal of the edge's plane)  x  arriving / unshadowed of shared rays
 //
 // Page: docs/11_emissives.md
 #include "01_first_light/tone_map.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
-#include "11_emissives/emitters.hpp"
+#include "08_diffuse_cones/composite.hpp"
+#include "11_emissives/emitter_light.hpp"
 #include "app/needs.hpp"
 
 using namespace conebook;
@@ -38,27 +38,33 @@ try {
     const GpuScene scene(app.scene());
     ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
     LitVoxels voxels(app.shaders(), scene, voxel_params);
-    Emitters emitters(app.shaders(), app.scene(), voxels.grid(), voxels.voxelizer(), emitter_params);
+    Emitters emitters(app.shaders(), app.scene(), voxels.grid(), emitter_params);
+    WalkVolume walk_volume(app.shaders());
+    const ConeVolumes volumes{voxels.grid(), voxels.pyramid(), walk_volume};
     GBuffer g_buffer(app.shaders(), app.size());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
-    const DiffuseConeUniforms cones(cone_params);
-    DiffuseCones diffuse_cones(app.shaders(), voxels.grid(), diffuse_params, emitters.are_apart());
-    SpecularCones specular_cones(app.shaders(), emitters.are_apart());
+    ConeDirections directions;
+    DiffuseCones diffuse_cones(app.shaders());
+    EmitterLight emitter_light(app.shaders());
+    SpecularCones specular_cones(app.shaders(), emitters.specular_folder());
     const bool reflective = has_specular_surfaces(app.scene());
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
     while (app.next_frame()) {
         // What the lights see.
-        app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
 
         // snippet: emission_apart
         // Triangles -> voxels -> what they reflect -> six pyramids. On request nothing that they reflect.
-        voxels.run(app, scene, shadow_maps, app.shows("from_emitters") ? LightPart::none : emitters.part_of_voxels());
+        voxels.shade(app, scene, shadow_maps);
+        voxels.filter(app, !app.shows("from_emitters") ? emitters.part_of_voxels()
+                           : emitters.are_apart()      ? LightPart::none
+                                                       : LightPart::emitted);
+        app.pass("walk volume", Scope::scene, [&] { return walk_volume.run(voxels.grid(), voxels.faces()); });
 
         // What they emit -> six more, and the parts of it to aim at.
-        if (voxels.are_new())
-            app.pass("emitters", [&] { emitters.run(voxels.grid(), voxels.faces(), voxels.shading()); });
+        app.pass("emitters", Scope::scene, [&] { return emitters.run(voxels.grid(), voxels.faces(), voxels.shading()); });
         // end snippet
 
         // What the camera sees, and what of it the lamps reach.
@@ -73,12 +79,17 @@ try {
         // Light of other surfaces, shining or lit.
         const gl::Texture *gathered = nullptr, *specular = nullptr;
         app.pass("diffuse cones", [&] {
-            gathered = &emitters.gather(diffuse_cones, g_buffer, voxels.grid(), voxels.pyramid(), cones, cone_params);
+            directions.update(cone_params, 0);
+            gathered = &diffuse_cones.run(g_buffer, volumes, directions, cone_params, diffuse_params);
+        });
+        app.pass("emitters' light", [&] {
+            gathered = &emitter_light.run(g_buffer, volumes, emitters, diffuse_cones, *gathered, cone_params);
+            return emitters.are_apart();
         });
         if (reflective)
             app.pass("specular cones", [&] {
-                specular = &specular_cones.run(g_buffer, voxels.grid(), voxels.pyramid(), cone_params, specular_params,
-                                               emitters.all_light());
+                emitters.bind_emission();
+                specular = &specular_cones.run(g_buffer, volumes, cone_params, specular_params);
             });
 
         // Sum.

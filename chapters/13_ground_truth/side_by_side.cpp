@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "12_second_bounce/lit_pixels.hpp"
+#include "12_second_bounce/camera_light.hpp"
 #include "gl/pixel_pass.hpp"
 
 namespace conebook {

@@ -7,7 +7,7 @@
 // t: ms a frame, e: error against the path tracer. ./run report measures both for many settings.
 // Page: docs/14_speed_against_error.md
 #include "01_first_light/tone_map.hpp"
-#include "12_second_bounce/second_bounce.hpp"
+#include "12_second_bounce/camera_light.hpp"
 #include "14_speed_against_error/fetch_counter.hpp"
 #include "14_speed_against_error/part_pictures.hpp"
 #include "app/needs.hpp"
@@ -33,15 +33,11 @@ void add_parameters(ParameterTable& table, MeasureParams& params)
 
 int main(int argc, char** argv)
 try {
-    LitVoxelParams voxel_params;
-    ShadowMapParams shadow_map_params;
-    BounceParams bounce_params;
-    EmitterParams emitter_params;
-    LitPixelParams pixel_params;
+    SceneLightParams scene_params;
+    CameraLightParams camera_params;
     DisplayParams display_params;
     MeasureParams measure_params;
-    ParameterTable parameters = parameters_of(voxel_params, bounce_params, emitter_params, pixel_params,
-                                              shadow_map_params, display_params, measure_params);
+    ParameterTable parameters = parameters_of(scene_params, camera_params, display_params, measure_params);
 
     App app(argc, argv,
             {"14_speed_against_error",
@@ -50,61 +46,51 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_map_params);
-    LitVoxels voxels(app.shaders(), scene, voxel_params);
-    Emitters emitters(app.shaders(), app.scene(), voxels.grid(), voxels.voxelizer(), emitter_params);
-    SecondBounce second_bounce(app.shaders(), emitters.are_apart());
-    LitPixels pixels(app.shaders(), voxels.grid(), emitters, app.size(), pixel_params);
-    FetchCounter fetch_counter(app.shaders(), emitters.are_apart());
+    SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params);
+    CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
+    FetchCounter fetch_counter(app.shaders());
     ToneMapPass tone_map(app.shaders());
     FetchCounts fetches;
-    const bool indirect = bounce_params.bounces != 0;
-    const bool asks_maps = ask_shadow_maps(pixel_params.shadows, voxel_params.shading);
 
     while (app.next_frame()) {
-        // Chapter 12's frame: light, voxels, bounces, pixels.
-        if (asks_maps) app.pass("shadow maps", [&] { shadow_maps.draw(scene); });
-        voxels.run(app, scene, shadow_maps, emitters.part_of_voxels());
-        if (voxels.are_new())
-            app.pass("emitters", [&] { emitters.run(voxels.grid(), voxels.faces(), voxels.shading()); });
-        app.pass("further bounces",
-                 [&] { second_bounce.run(voxels, emitters, pixels.cones(), pixel_params.cones, bounce_params); });
-        const gl::Texture& linear = pixels.run(app, scene, voxels, shadow_maps, indirect);
+        // Chapter 12's frame: light in the voxels, surfaces, cones, sum.
+        scene_light.run(app, scene, camera_params.cones, asks_shadow_maps(camera_params.shadows));
+        camera_light.see(app, scene);
+        camera_light.gather(app);
+        const gl::Texture& linear = camera_light.sum(app);
 
         // The same cones once more, to count: outside of every pass, so that no time holds it.
         const bool last = app.frame() + 1 == app.options().frames;
-        if (app.shows("fetches") || (measure_params.count_fetches && last && indirect)) {
-            fetch_counter.run(pixels.g_buffer(), voxels.grid(), voxels.pyramid(), emitters, pixels.cones(),
-                              has_specular_surfaces(app.scene()) ? &pixels.specular_cones() : nullptr, pixel_params);
-            fetches = fetch_counter.counts(pixels.g_buffer());
+        if (app.shows("fetches") || (measure_params.count_fetches && last && scene_light.has_indirect())) {
+            fetch_counter.run(scene_light, camera_light, camera_params, has_specular_surfaces(app.scene()));
+            fetches = fetch_counter.counts(camera_light.g_buffer());
         }
         if (app.shows("fetches"))
-            app.show(fetch_counter.show(pixels.g_buffer()), fetch_counter.heat_map(pixels.g_buffer(), fetches.largest));
+            app.show(fetch_counter.show(camera_light.g_buffer()),
+                     fetch_counter.heat_map(camera_light.g_buffer(), fetches.largest));
         else
             app.show(linear,
                      tone_map.run(linear, app.view().encoding, display_params, data_scale(app.view(), scene.bounds())));
     }
     if (measure_params.write_parts && !app.options().output.empty()) {
-        write_part_pictures(app.options().output, pixels);
-        pixels.composite(app.view().name);  // where the parts were is what finish() writes
+        write_part_pictures(app.options().output, camera_light);
+        camera_light.composite(app.view().name);  // where the parts were is what finish() writes
     }
 
-    std::vector<Count> counts = voxels.counts();
-    counts.push_back({"gatherings from voxel to voxel", double(second_bounce.gatherings()), ""});
+    std::vector<Count> counts = scene_light.counts();
     if (measure_params.count_fetches || app.shows("fetches")) {
-        counts.push_back({"fetches per pixel, diffuse", fetches.diffuse, ""});
+        counts.push_back({"points that gather, per pixel", fetches.points_per_pixel, ""});
+        counts.push_back({"walk steps per point, diffuse", fetches.diffuse_steps, ""});
+        counts.push_back({"fetches per point, diffuse", fetches.diffuse, ""});
+        counts.push_back({"walk steps per pixel, specular", fetches.specular_steps, ""});
         counts.push_back({"fetches per pixel, specular", fetches.specular, ""});
-        counts.push_back({"fetches per pixel", fetches.diffuse + fetches.specular, ""});
-        counts.push_back({"fetches of the worst pixel", fetches.largest, ""});
+        counts.push_back({"look-ups of the worst point", fetches.largest, ""});
     }
-    for (const auto& needs : {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene),
-                              pixels.needs(app.scene(), indirect)})
-        app.statistics().add_needs(needs);
-    app.statistics().add_needs({light_need(app.scene()), emitters.need()});
     app.statistics().set_counts(counts);
-    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), emitters.resources(),
-                             second_bounce.resources(), pixels.resources()})
+    for (const auto& part : {scene.resources(), scene_light.resources(), camera_light.resources()})
         app.statistics().add_resources(part);
+    for (const auto& needs : {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene())})
+        app.statistics().add_needs(needs);
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

@@ -2,11 +2,11 @@
 
 namespace conebook {
 
-void write_part_pictures(const std::filesystem::path& output, LitPixels& pixels)
+void write_part_pictures(const std::filesystem::path& output, CameraLight& light)
 {
     for (const std::string part : {"final", "direct", "indirect_diffuse", "indirect_specular"}) {
         const std::filesystem::path file = output.parent_path() / (output.stem().string() + "_" + part + ".exr");
-        write_exr(file, finite_picture(pixels.composite(part), file));
+        write_exr(file, finite_picture(light.composite(part), file));
     }
 }
 

@@ -42,26 +42,24 @@ App::App(int argc, char** argv, ProgramInfo info)
     : info_(std::move(info)),
       options_(parse_options(argc, argv, info_)),
       scene_(load_scene(options_.scene)),
-      context_(options_.headless ? Context::headless() : Context::window(info_.name, options_.size)),
+      context_(options_.headless ? Context::headless(options_.device) : Context::window(info_.name, options_.size)),
       shaders_(options_.root / "shaders"),
+      timer_(context_.is_software() ? PassTimer::Clock::cpu_around_finish : PassTimer::Clock::gpu_queries),
       camera_(choose_camera(scene_, options_.camera)),
       size_(options_.size),
       view_index_(index_of(info_.views, options_.view))
 {
     for (const std::string& warning : scene_.warnings)
         std::cerr << options_.scene.filename().string() << ": note: " << warning << "\n";
-    const std::string driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    const std::string version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
-    software_driver_ = driver.find("llvmpipe") != std::string::npos || driver.find("softpipe") != std::string::npos ||
-                       driver.find("SWR") != std::string::npos;
-    statistics_.set_run(info_.name, driver + ", " + version, size_);
+    statistics_.set_run(info_.name, context_.driver(), size_);
     statistics_.add_needs({camera_need(scene_, options_.camera)});
     // The book's conventions for every pass: depth 1 near and 0 far, stored as float without loss.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-    if (context_.glfw_window() != nullptr)
+    if (context_.glfw_window() != nullptr) {
+        std::cerr << info_.name << ": drawn by " << context_.driver() << "\n";
         window_ = std::unique_ptr<Window>(
             new Window{WindowInput(context_.glfw_window(), camera_, scene_.bounds), {}, 0});
+    }
 }
 
 App::~App() = default;
@@ -87,40 +85,32 @@ bool App::next_frame()
     return true;
 }
 
-shared::CameraData App::camera() const { return camera_data(camera_, size_); }
+namespace {
+
+// Van der Corput's radical inverse: the first two, of bases 2 and 3, are Halton's points.
+float radical_inverse(int base, int i)
+{
+    float value = 0.0f, digit = 1.0f / float(base);
+    for (; i > 0; i /= base, digit /= float(base)) value += digit * float(i % base);
+    return value;
+}
+
+}  // namespace
+
+int App::sample(bool accumulate, Revision light)
+{
+    const bool changed = seen_.differs(camera_.world_from_camera, size_, view_index_, info_.parameters.values(), accumulate, light);
+    sample_ = accumulate && !changed && view().encoding == Encoding::radiance ? sample_ + 1 : 0;
+    return sample_;
+}
+
+shared::CameraData App::camera() const
+{
+    const glm::vec2 offset(radical_inverse(2, sample_), radical_inverse(3, sample_));
+    return moved(camera_data(camera_, size_, scene_.bounds), offset - glm::round(offset));
+}
 
 const View& App::view() const { return info_.views[view_index_]; }
-
-void App::collect_queries()
-{
-    for (const auto& [name, query] : pending_queries_) {
-        GLuint64 nanoseconds = 0;
-        glGetQueryObjectui64v(query.id(), GL_QUERY_RESULT, &nanoseconds);
-        statistics_.add_time(name, 1e-6 * double(nanoseconds));
-    }
-    pending_queries_.clear();
-}
-
-void App::pass(const std::string& name, const std::function<void()>& work)
-{
-    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name.c_str());
-    if (software_driver_) {
-        glFinish();
-        const auto start = std::chrono::steady_clock::now();
-        work();
-        glFinish();
-        const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-        statistics_.add_time(name, elapsed.count());
-    } else {
-        GLuint query = 0;
-        glCreateQueries(GL_TIME_ELAPSED, 1, &query);
-        glBeginQuery(GL_TIME_ELAPSED, query);
-        work();
-        glEndQuery(GL_TIME_ELAPSED);
-        pending_queries_.emplace_back(name, gl::Handle<gl::delete_query>(query));
-    }
-    glPopDebugGroup();
-}
 
 void App::write_picture(const gl::Texture& linear, const gl::Texture& display) const
 {
@@ -142,7 +132,7 @@ void App::show(const gl::Texture& linear, const gl::Texture& display)
 {
     linear_ = &linear;
     display_ = &display;
-    collect_queries();
+    timer_.end_frame(statistics_);
     if (window_ == nullptr) return;
     window_->input.present(display);
     if (window_->requests.screenshot) {
@@ -157,6 +147,7 @@ void App::show(const gl::Texture& linear, const gl::Texture& display)
 int App::finish()
 {
     glFinish();
+    timer_.finish(statistics_);
     std::vector<std::string> faults = debug_log_.faults();
     if (faults.empty()) {
         if (linear_ != nullptr && !options_.output.empty()) write_picture(*linear_, *display_);

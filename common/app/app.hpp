@@ -7,7 +7,6 @@
 //     return app.finish();
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,6 +14,7 @@
 
 #include "app/context.hpp"
 #include "app/options.hpp"
+#include "app/pass_timer.hpp"
 #include "app/statistics.hpp"
 #include "gl/debug_log.hpp"
 #include "gl/gpu_scene.hpp"
@@ -40,13 +40,36 @@ public:
     int frame() const { return frame_; }        // 0, 1, 2, ...
     glm::ivec2 size() const { return size_; }   // of the picture in pixels; a window may change it between frames
     shared::CameraData camera() const;          // this frame's
+    // How many pictures of the same thing there have been since camera, view, size, a parameter or `light` changed: 0 for the
+    // first. Always 0 without `accumulate`, and for views that show no light. Each such sample has a camera of its own, moved
+    // by less than a pixel.
+    int sample(bool accumulate, Revision light);
     const Camera& scene_camera() const { return camera_; }  // the same, as the path tracer takes it
     const View& view() const;                   // this frame's
     bool shows(const std::string& view_name) const { return view().name == view_name; }
 
-    // Do and time one pass: CPU clock around glFinish on a software driver, whose timer queries do not count the
-    // work; GPU timer queries elsewhere.
-    void pass(const std::string& name, const std::function<void()>& work);
+    // Do and time one pass (pass_timer.hpp), which must not time another.
+    // `work` may return whether it had anything to do; what did not run is not in the statistics.
+    template <typename Work>
+    void pass(const std::string& name, Scope scope, Work work)
+    {
+        timer_.time(
+            name, scope,
+            [&] {
+                if constexpr (std::is_void_v<decltype(work())>) {
+                    work();
+                    return true;
+                } else {
+                    return work();
+                }
+            },
+            statistics_);
+    }
+    template <typename Work>
+    void pass(const std::string& name, Work work)
+    {
+        pass(name, Scope::camera, work);
+    }
 
     // The frame's picture: `linear` is what .exr gets, `display` (RGBA8, sRGB encoded) is for .png and the screen.
     void show(const gl::Texture& linear, const gl::Texture& display);
@@ -59,7 +82,6 @@ public:
 private:
     struct Window;
     void write_picture(const gl::Texture& linear, const gl::Texture& display) const;
-    void collect_queries();
 
     ProgramInfo info_;
     Options options_;
@@ -68,12 +90,12 @@ private:
     gl::DebugLog debug_log_;
     gl::Shaders shaders_;
     Statistics statistics_;
+    PassTimer timer_;
     Camera camera_;
     glm::ivec2 size_;
     std::size_t view_index_ = 0;
-    int frame_ = -1;
-    bool software_driver_ = false;
-    std::vector<std::pair<std::string, gl::Handle<gl::delete_query>>> pending_queries_;
+    int frame_ = -1, sample_ = 0;
+    MadeFrom<glm::mat4, glm::ivec2, std::size_t, std::vector<double>, bool, Revision> seen_;
     const gl::Texture* linear_ = nullptr;
     const gl::Texture* display_ = nullptr;
     std::unique_ptr<Window> window_;  // null when headless

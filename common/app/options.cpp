@@ -7,6 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/context.hpp"
+
 namespace conebook {
 
 namespace {
@@ -60,11 +62,12 @@ Options parse_options(int argc, char** argv, ProgramInfo& info)
     std::string scene, size, output, stats;
     std::vector<std::string> assignments;
     int camera = -1;
-    bool list_views = false, list_parameters = false;
+    bool list_views = false, list_parameters = false, list_devices = false;
 
     CLI::App cli(info.name, info.name);
     cli.add_option("--scene", scene, "glTF scene, .gltf or .glb (default: assets/cornell_box.glb)");
     cli.add_flag("--headless", options.headless, "render without a display (EGL)");
+    cli.add_option("--device", options.device, "with --headless: number or part of the name; --list-devices names them");
     cli.add_option("--size", size, "WxH in pixels (default: 1280x720 window, 512x512 headless)");
     cli.add_option("--output", output, ".png: tone mapped, sRGB; .exr: scene-linear radiance");
     CLI::Option* frames = cli.add_option("--frames", options.frames, "render N frames, keep the last (headless: 1)");
@@ -76,6 +79,7 @@ Options parse_options(int argc, char** argv, ProgramInfo& info)
         ->type_name("NAME=VALUE");
     cli.add_flag("--list-views", list_views, "name the views and end");
     cli.add_flag("--list-params", list_parameters, "name the parameters and end");
+    cli.add_flag("--list-devices", list_devices, "name the devices that can render headless and end");
     try {
         cli.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -93,6 +97,13 @@ Options parse_options(int argc, char** argv, ProgramInfo& info)
         std::cout << info.parameters.listing();
         throw ExitRequest(0);
     }
+
+    if (list_devices) {
+        std::cout << Context::device_listing();
+        throw ExitRequest(0);
+    }
+    if (!options.device.empty() && !options.headless)
+        throw std::runtime_error("--device " + options.device + ": needs --headless; a window has its display's driver");
 
     for (const std::string& assignment : assignments) info.parameters.set(assignment);
     if (options.view.empty()) options.view = info.views.front().name;

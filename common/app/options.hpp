@@ -39,6 +39,7 @@ struct Options {
     std::filesystem::path stats;   // empty: not written
     std::filesystem::path root;    // the folder that holds shaders/ and assets/
     bool headless = false;
+    std::string device;            // for Context::headless
     bool print_stats = false;
     glm::ivec2 size{0};
     int frames = 1;

@@ -56,6 +56,11 @@ std::string Parameter::range_text() const
 {
     if (!choices.empty()) return joined(choices);
     if (as_bool != nullptr) return "on | off";
+    if (!values.empty()) {
+        std::vector<std::string> words;
+        for (const int v : values) words.push_back(std::to_string(v));
+        return joined(words);
+    }
     return number_text(min) + " .. " + number_text(max);
 }
 
@@ -70,24 +75,32 @@ void ParameterTable::insert(Parameter parameter)
 void ParameterTable::add(const std::string& name, float& field, double min, double max, const std::string& unit,
                          const std::string& help)
 {
-    insert({name, unit, help, min, max, &field, nullptr, nullptr, {}, field});
+    insert({name, unit, help, min, max, &field, nullptr, nullptr, {}, {}, field});
 }
 
 void ParameterTable::add(const std::string& name, int& field, int min, int max, const std::string& unit,
                          const std::string& help)
 {
-    insert({name, unit, help, double(min), double(max), nullptr, &field, nullptr, {}, double(field)});
+    insert({name, unit, help, double(min), double(max), nullptr, &field, nullptr, {}, {}, double(field)});
+}
+
+void ParameterTable::add_values(const std::string& name, int& field, std::vector<int> values, const std::string& help)
+{
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    Parameter parameter{name, "", help, double(*least), double(*most), nullptr, &field, nullptr, {}, {}, double(field)};
+    parameter.values = std::move(values);
+    insert(std::move(parameter));
 }
 
 void ParameterTable::add(const std::string& name, bool& field, const std::string& help)
 {
-    insert({name, "", help, 0.0, 1.0, nullptr, nullptr, &field, {}, field ? 1.0 : 0.0});
+    insert({name, "", help, 0.0, 1.0, nullptr, nullptr, &field, {}, {}, field ? 1.0 : 0.0});
 }
 
 void ParameterTable::add(const std::string& name, int& field, std::vector<std::string> choices, const std::string& help)
 {
     const double last = double(choices.size()) - 1.0;
-    insert({name, "", help, 0.0, last, nullptr, &field, nullptr, std::move(choices), double(field)});
+    insert({name, "", help, 0.0, last, nullptr, &field, nullptr, std::move(choices), {}, double(field)});
 }
 
 void ParameterTable::set(const std::string& assignment)
@@ -117,12 +130,22 @@ void ParameterTable::set(const std::string& assignment)
     if (value < found->min || value > found->max)
         throw std::runtime_error("--set " + name + "=" + text + ": out of range " + found->range_text() +
                                  (found->unit.empty() ? "" : " " + found->unit));
+    if (!found->values.empty() && std::find(found->values.begin(), found->values.end(), value) == found->values.end())
+        throw std::runtime_error("--set " + name + "=" + text + ": must be one of " + found->range_text());
     const bool whole = found->as_int != nullptr || found->as_bool != nullptr;
     if (whole && value != std::floor(value))
         throw std::runtime_error("--set " + name + "=" + text + ": must be a whole number");
     if (found->as_float != nullptr) *found->as_float = float(value);
     if (found->as_int != nullptr) *found->as_int = int(value);
     if (found->as_bool != nullptr) *found->as_bool = value != 0.0;
+}
+
+std::vector<double> ParameterTable::values() const
+{
+    std::vector<double> all;
+    for (const Parameter& p : parameters_)
+        all.push_back(p.as_float != nullptr ? double(*p.as_float) : p.as_int != nullptr ? double(*p.as_int) : double(*p.as_bool));
+    return all;
 }
 
 std::string ParameterTable::listing() const

@@ -18,15 +18,21 @@ double median(std::vector<double> values)
     return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
+const char* scope_name(Scope scope)
+{
+    return scope == Scope::scene ? "scene" : scope == Scope::light ? "light" : "camera";
+}
+
 double minimum(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
 }  // namespace
 
-void Statistics::add_time(const std::string& pass, double milliseconds)
+void Statistics::add_time(const std::string& pass, Scope scope, double milliseconds)
 {
-    std::vector<double>& times = times_ms_[pass];
-    if (times.empty()) pass_order_.push_back(pass);
-    times.push_back(milliseconds);
+    Pass& timed = passes_[pass];
+    if (timed.times_ms.empty()) pass_order_.push_back(pass);
+    timed.scope = scope;
+    timed.times_ms.push_back(milliseconds);
 }
 
 void Statistics::write_json(const std::filesystem::path& file) const
@@ -38,8 +44,9 @@ void Statistics::write_json(const std::filesystem::path& file) const
     json["seed"] = 0;  // nothing in the chapters is random
     json["passes"] = nlohmann::json::array();
     for (const std::string& pass : pass_order_) {
-        const std::vector<double>& times = times_ms_.at(pass);
+        const std::vector<double>& times = passes_.at(pass).times_ms;
         json["passes"].push_back({{"name", pass},
+                                  {"scope", scope_name(passes_.at(pass).scope)},
                                   {"min_ms", minimum(times)},
                                   {"median_ms", median(times)},
                                   {"frames", times.size()}});
@@ -74,14 +81,15 @@ std::string Statistics::table() const
         out += line;
     };
     row("%s, %d x %d, %s\n", program_.c_str(), size_.x, size_.y, driver_.c_str());
-    row("%-34s %12s %12s\n", "pass", "min ms", "median ms");
+    row("%-26s %7s %12s %12s %6s\n", "pass", "scope", "min ms", "median ms", "times");
     double total = 0.0;
     for (const std::string& pass : pass_order_) {
-        const std::vector<double>& times = times_ms_.at(pass);
-        row("%-34s %12.2f %12.2f\n", pass.c_str(), minimum(times), median(times));
+        const std::vector<double>& times = passes_.at(pass).times_ms;
+        row("%-26s %7s %12.2f %12.2f %6zu\n", pass.c_str(), scope_name(passes_.at(pass).scope), minimum(times),
+            median(times), times.size());
         total += median(times);
     }
-    row("%-34s %12s %12.2f\n", "sum", "", total);
+    row("%-26s %7s %12s %12.2f\n", "sum of all, once", "", "", total);
     row("%-34s %12s\n", "resource", "bytes");
     std::size_t bytes = 0;
     for (const gl::Resource& r : resources_) {

@@ -27,9 +27,12 @@ struct Count {
     std::string unit;
 };
 
+// What the result of a pass depends on: the geometry and materials of the scene; its lights too; the camera too.
+enum class Scope { scene, light, camera };
+
 class Statistics {
 public:
-    void add_time(const std::string& pass, double milliseconds);
+    void add_time(const std::string& pass, Scope scope, double milliseconds);
     // What was never made has no bytes and is left out.
     void add_resources(const std::vector<gl::Resource>& resources)
     {
@@ -49,7 +52,11 @@ public:
 
 private:
     std::vector<std::string> pass_order_;
-    std::map<std::string, std::vector<double>> times_ms_;
+    struct Pass {
+        Scope scope = Scope::camera;
+        std::vector<double> times_ms;  // of each time that it ran
+    };
+    std::map<std::string, Pass> passes_;
     std::vector<gl::Resource> resources_;
     std::vector<Need> needs_;
     std::vector<Count> counts_;

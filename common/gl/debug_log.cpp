@@ -2,14 +2,17 @@
 
 #include <epoxy/gl.h>
 
+#include "gl/strict.hpp"
+
 namespace conebook::gl {
 
 namespace {
 
 void on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message, const void* user)
 {
+    // Drivers call much undefined behaviour that no shader runs into, such as a sampler that is declared and not bound.
     const bool fault = severity == GL_DEBUG_SEVERITY_HIGH || type == GL_DEBUG_TYPE_ERROR ||
-                       type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR;
+                       (type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR && strict());
     if (fault) static_cast<DebugLog*>(const_cast<void*>(user))->add_fault(std::string("OpenGL: ") + message);
 }
 

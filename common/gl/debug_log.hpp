@@ -13,7 +13,8 @@ public:
     DebugLog(const DebugLog&) = delete;
     DebugLog& operator=(const DebugLog&) = delete;
 
-    // Messages that must end the program with a code above 0: high severity, errors, and glGetError.
+    // Messages that must end the program with a code above 0: high severity, errors, and glGetError; undefined behaviour
+    // too when gl::strict().
     std::vector<std::string> faults() const;
     void add_fault(std::string message) { faults_.push_back(std::move(message)); }
 

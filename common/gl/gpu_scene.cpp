@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <map>
 
+#include <glm/ext/matrix_clip_space.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace conebook {
 
@@ -109,35 +111,44 @@ shared::LightData light_data(const Light& light)
     return data;
 }
 
-shared::CameraData camera_data(const Camera& camera, glm::ivec2 size)
+shared::CameraData camera_data(const Camera& camera, glm::ivec2 size, const Bounds& content)
 {
-    const float aspect = float(size.x) / float(size.y);
-    glm::mat4 clip_from_view(0.0f);
-    if (camera.orthographic) {
-        // Reversed depth: z_near -> 1, z_far -> 0.
-        const float far = camera.z_far > camera.z_near ? camera.z_far : camera.z_near + 1e4f;
-        clip_from_view[0][0] = 1.0f / camera.x_mag;
-        clip_from_view[1][1] = 1.0f / camera.y_mag;
-        clip_from_view[2][2] = 1.0f / (far - camera.z_near);
-        clip_from_view[3][2] = far / (far - camera.z_near);
-        clip_from_view[3][3] = 1.0f;
-    } else {
-        const float f = 1.0f / std::tan(0.5f * camera.y_fov);
-        clip_from_view[0][0] = f / aspect;
-        clip_from_view[1][1] = f;
-        clip_from_view[2][3] = -1.0f;
-        clip_from_view[3][2] = camera.z_near;
-    }
-    const glm::mat4 view_from_scene = glm::affineInverse(camera.world_from_camera);
+    // In double precision, rounded once at the end: from 100 km away the scene's 2 m are a difference of large numbers.
+    const glm::dmat4 scene_from_view(camera.world_from_camera), view_from_scene = glm::affineInverse(scene_from_view);
+    const auto [near, far] = visible_depths(camera, content);
+    // Reversed depth, 1 at the near plane and 0 at the far one: GLM's matrices with the two planes exchanged.
+    const glm::dmat4 clip_from_view =
+        camera.orthographic
+            ? glm::orthoRH_ZO<double>(-camera.x_mag, camera.x_mag, -camera.y_mag, camera.y_mag, far, near)
+            : glm::perspectiveRH_ZO<double>(camera.y_fov, double(size.x) / size.y, far, near);
     shared::CameraData data{};
     data.clip_from_scene = clip_from_view * view_from_scene;
-    data.scene_from_clip = camera.world_from_camera * glm::inverse(clip_from_view);
-    data.view_from_scene = view_from_scene;
+    data.scene_from_clip = scene_from_view * glm::inverse(clip_from_view);
     data.position = glm::vec4(glm::vec3(camera.world_from_camera[3]), camera.orthographic ? 0.0f : 1.0f);
-    data.forward = glm::vec4(-glm::vec3(camera.world_from_camera[2]), 0.0f);
+    const double in_front = std::min(near - double(camera.z_near), double(glm::length(content.extent())));
+    data.forward = glm::vec4(-glm::vec3(camera.world_from_camera[2]), in_front);
     data.size = glm::vec4(size, 1.0f / glm::vec2(size));
     return data;
 }
+
+shared::CameraData moved(const shared::CameraData& camera, glm::vec2 pixels)
+{
+    if (pixels == glm::vec2(0.0f)) return camera;
+    const glm::vec2 clip = 2.0f * pixels * glm::vec2(camera.size.z, camera.size.w);
+    shared::CameraData data = camera;
+    data.clip_from_scene = glm::translate(glm::mat4(1.0f), glm::vec3(clip, 0.0f)) * camera.clip_from_scene;
+    data.scene_from_clip = camera.scene_from_clip * glm::translate(glm::mat4(1.0f), glm::vec3(-clip, 0.0f));
+    return data;
+}
+
+namespace {
+gl::Buffer light_buffer(const std::vector<Light>& lights)
+{
+    std::vector<shared::LightData> data;
+    for (const Light& light : lights) data.push_back(light_data(light));
+    return gl::Buffer("lights", data);
+}
+}  // namespace
 
 GpuScene::GpuScene(const Scene& scene)
     : triangle_count_(scene.triangle_count()),
@@ -154,9 +165,7 @@ GpuScene::GpuScene(const Scene& scene)
         has_emission_ = has_emission_ || m.emission != glm::vec3(0.0f) || m.unlit;
     }
     material_buffer_ = gl::Buffer("materials", materials);
-    std::vector<shared::LightData> lights;
-    for (const Light& light : scene.lights) lights.push_back(light_data(light));
-    light_buffer_ = gl::Buffer("lights", lights);
+    light_buffer_ = light_buffer(scene.lights);
 
     struct Attribute {
         GLint components;
@@ -201,23 +210,30 @@ GpuScene::GpuScene(const Scene& scene)
     }
 }
 
+void GpuScene::set_lights(const std::vector<Light>& lights)
+{
+    lights_ = lights;
+    light_buffer_ = light_buffer(lights_);
+    ++lights_revision_;
+}
+
 void GpuScene::bind_buffers() const
 {
-    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 1);
-    vertex_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 2);
-    index_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 3);
+    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightBinding);
+    vertex_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVertexBinding);
+    index_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kIndexBinding);
 }
 
 void GpuScene::bind_lights(const gl::Program& program) const
 {
-    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, 1);
+    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightBinding);
     program.set("light_count", int(lights_.size()));
 }
 
 void GpuScene::bind_material(const gl::Program& program, int material) const
 {
-    glBindBufferRange(GL_UNIFORM_BUFFER, 3, material_buffer_.id(), GLintptr(material) * GLintptr(kMaterialStride),
-                      sizeof(shared::MaterialData));
+    glBindBufferRange(GL_UNIFORM_BUFFER, shared::kMaterialBlock, material_buffer_.id(),
+                      GLintptr(material) * GLintptr(kMaterialStride), sizeof(shared::MaterialData));
     const auto& bindings = bindings_[std::size_t(material)];
     for (GLuint unit = 0; unit < bindings.size(); ++unit) {
         const BoundTexture& bound = bindings[unit];

@@ -1,6 +1,8 @@
 #include "gl/handles.hpp"
 
+#include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 namespace conebook::gl {
 
@@ -36,6 +38,7 @@ FormatInfo format_info(GLenum internal_format)
         {GL_R32F, 4, GL_RED, GL_FLOAT},
         {GL_RG32F, 8, GL_RG, GL_FLOAT},
         {GL_RGBA32F, 16, GL_RGBA, GL_FLOAT},
+        {GL_RGBA32UI, 16, GL_RGBA_INTEGER, GL_UNSIGNED_INT},
         {GL_R8UI, 1, GL_RED_INTEGER, GL_UNSIGNED_INT},
         {GL_R32UI, 4, GL_RED_INTEGER, GL_UNSIGNED_INT},
         {GL_DEPTH_COMPONENT32F, 4, GL_DEPTH_COMPONENT, GL_FLOAT},
@@ -47,27 +50,57 @@ FormatInfo format_info(GLenum internal_format)
 
 }  // namespace
 
+namespace {
+
+// `text` is cut to fewer bytes than the driver's `limit`, since longer ones are an error (OpenGL 4.5, 20.7).
+std::string_view shortened(const std::string& text, GLenum limit)
+{
+    GLint bytes = 0;
+    glGetIntegerv(limit, &bytes);
+    return std::string_view(text).substr(0, std::size_t(bytes) - 1);
+}
+
+}  // namespace
+
+void label_object(GLenum kind, GLuint id, const std::string& label)
+{
+    const std::string_view text = shortened(label, GL_MAX_LABEL_LENGTH);
+    glObjectLabel(kind, id, GLsizei(text.size()), text.data());
+}
+
+DebugGroup::DebugGroup(const std::string& name)
+{
+    const std::string_view text = shortened(name, GL_MAX_DEBUG_MESSAGE_LENGTH);
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, GLsizei(text.size()), text.data());
+}
+
+DebugGroup::~DebugGroup() { glPopDebugGroup(); }
+
 Buffer::Buffer(const std::string& label, std::size_t bytes, const void* data) : bytes_(bytes), label_(label)
 {
     GLuint id = 0;
     glCreateBuffers(1, &id);
     handle_ = Handle<delete_buffer>(id);
     glNamedBufferStorage(id, GLsizeiptr(std::max<std::size_t>(bytes, 4)), data, GL_DYNAMIC_STORAGE_BIT);
-    glObjectLabel(GL_BUFFER, id, -1, label.c_str());
+    label_object(GL_BUFFER, id, label);
     if (data == nullptr) clear();
 }
 
 void Buffer::write(std::size_t offset, std::size_t bytes, const void* data) const
 {
-    glNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), data);
+    if (bytes > 0) glNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), data);
 }
 
-void Buffer::clear() const { glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr); }
+void Buffer::clear() const
+{
+    if (*this) glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
 
 void Buffer::bind(GLenum target, GLuint index) const { glBindBufferBase(target, index, id()); }
 
 void Buffer::read_bytes(std::size_t offset, std::size_t bytes, void* out) const
 {
+    if (bytes == 0) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), out);
 }
@@ -84,7 +117,7 @@ Texture::Texture(const std::string& label, GLenum target, GLenum internal_format
         glTextureStorage3D(id, levels, internal_format, size.x, size.y, size.z);
     if (glGetError() == GL_OUT_OF_MEMORY)
         throw std::runtime_error(label + ": no memory for a texture of " + std::to_string(bytes() >> 20) + " MiB");
-    glObjectLabel(GL_TEXTURE, id, -1, label.c_str());
+    label_object(GL_TEXTURE, id, label);
     set_filter(levels > 1 ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST, GL_NEAREST);
     set_wrap(GL_CLAMP_TO_EDGE);
 }
@@ -151,9 +184,9 @@ std::size_t texel_count(const Texture& texture, int level)
 std::vector<float> read_floats(const Texture& texture, int level, int channels)
 {
     const GLenum format = texture.format() == GL_DEPTH_COMPONENT32F ? GL_DEPTH_COMPONENT
-                          : channels == 1                            ? GL_RED
-                          : channels == 2                            ? GL_RG
-                                                                     : GL_RGBA;
+                          : channels == 1                           ? GL_RED
+                          : channels == 2                           ? GL_RG
+                                                                    : GL_RGBA;
     std::vector<float> values(texel_count(texture, level) * std::size_t(channels));
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -203,7 +236,7 @@ void Framebuffer::check(const std::string& label) const
     const GLenum status = glCheckNamedFramebufferStatus(id(), GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
         throw std::runtime_error(label + ": framebuffer is not complete (" + std::to_string(status) + ")");
-    glObjectLabel(GL_FRAMEBUFFER, id(), -1, label.c_str());
+    label_object(GL_FRAMEBUFFER, id(), label);
 }
 
 void Framebuffer::attach_depth_layer(const Texture& depth, int layer) const

@@ -47,7 +47,20 @@ void delete_vertex_array(GLuint id);
 void delete_query(GLuint id);
 void delete_sampler(GLuint id);
 
-// Immutable storage of `bytes` bytes, zeroed or filled from `data`.
+// The name of an object in debuggers and messages. What is longer than the driver takes (256 bytes at least) is cut off.
+void label_object(GLenum kind, GLuint id, const std::string& label);
+
+// Everything that is called while it lives is one group in debuggers; the name is cut off likewise.
+class DebugGroup {
+public:
+    explicit DebugGroup(const std::string& name);
+    ~DebugGroup();
+    DebugGroup(const DebugGroup&) = delete;
+    DebugGroup& operator=(const DebugGroup&) = delete;
+};
+
+// Immutable storage of `bytes` bytes, zeroed or filled from `data`. One that was never made holds 0 bytes: it may be
+// bound, cleared and read like any other. Scenes without a voxel have such.
 class Buffer {
 public:
     Buffer() = default;

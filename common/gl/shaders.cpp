@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
-#include <regex>
-#include <sstream>
+#include <functional>
+#include <iostream>
 #include <stdexcept>
+
+#include "gl/handles.hpp"
+#include "gl/strict.hpp"
 
 namespace conebook::gl {
 
@@ -21,50 +25,6 @@ struct Program::State {
 
 namespace {
 
-std::string read_text(const std::filesystem::path& file)
-{
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw std::runtime_error(file.string() + ": shader file cannot be read");
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
-
-// A source with its includes put in. GLSL numbers the pieces: `files[i]` is source string i of the #line directives.
-struct ExpandedSource {
-    std::string text;
-    std::vector<std::string> files;
-};
-
-void expand(const std::filesystem::path& root, const std::string& file, const Defines& defines, ExpandedSource& out)
-{
-    const int file_number = int(out.files.size());
-    out.files.push_back(file);
-    std::istringstream lines(read_text(root / file));
-    static const std::regex include_line(R"(^\s*#include\s+\"([^\"]+)\".*)");
-    std::string line;
-    for (int number = 1; std::getline(lines, line); ++number) {
-        std::smatch match;
-        if (std::regex_match(line, match, include_line)) {
-            const std::string included = match[1];
-            if (std::find(out.files.begin(), out.files.end(), included) == out.files.end()) {
-                if (!std::filesystem::exists(root / included))
-                    throw std::runtime_error(file + ":" + std::to_string(number) + ": #include \"" + included +
-                                             "\" is not below the shader folder");
-                out.text += "#line 1 " + std::to_string(out.files.size()) + "\n";
-                expand(root, included, defines, out);
-            }
-            out.text += "#line " + std::to_string(number + 1) + " " + std::to_string(file_number) + "\n";
-            continue;
-        }
-        out.text += line + "\n";
-        if (line.rfind("#version", 0) == 0) {
-            for (const auto& [name, value] : defines) out.text += "#define " + name + " " + value + "\n";
-            out.text += "#line " + std::to_string(number + 1) + " " + std::to_string(file_number) + "\n";
-        }
-    }
-}
-
 GLenum stage_of(const std::string& file)
 {
     const std::string extension = std::filesystem::path(file).extension().string();
@@ -73,25 +33,6 @@ GLenum stage_of(const std::string& file)
     if (extension == ".frag") return GL_FRAGMENT_SHADER;
     if (extension == ".comp") return GL_COMPUTE_SHADER;
     throw std::runtime_error(file + ": unknown shader stage (.vert .geom .frag .comp)");
-}
-
-// Drivers write "0:12(5): error: ..." (Mesa), "0(12) : error ..." (NVIDIA), "ERROR: 0:12: ..." (others): put the file
-// name in place of the number of the source string.
-std::string with_file_names(const std::string& log, const ExpandedSource& source)
-{
-    static const std::regex location(R"((\d+)(?::|\()(\d+)(?:\(\d+\))?\)?)");
-    std::string out;
-    std::istringstream lines(log);
-    for (std::string line; std::getline(lines, line);) {
-        std::smatch match;
-        if (std::regex_search(line, match, location)) {
-            const std::size_t index = std::stoul(match[1]);
-            if (index < source.files.size())
-                line = match.prefix().str() + source.files[index] + ":" + match[2].str() + match.suffix().str();
-        }
-        out += (out.empty() ? "" : "\n") + line;
-    }
-    return out;
 }
 
 // What the compiler or linker says of an object.
@@ -105,72 +46,87 @@ std::string info_log(GLuint object, GetParameter get_parameter, GetLog get_log)
     return log.c_str();
 }
 
-bool warns(const std::string& log)
+// Throws when `failed`. A warning goes to stderr, or is thrown too when programs are strict.
+void judge(const std::string& what, std::string log, bool failed)
 {
-    return log.find("warning") != std::string::npos || log.find("WARNING") != std::string::npos;
+    const std::size_t warning = std::min(log.find("warning"), log.find("WARNING"));
+    const std::size_t error = std::min(log.find("error"), log.find("ERROR"));
+    if (!failed && warning == std::string::npos) return;
+    // Headings of the driver's go, so that the first line, which is the one that is shown, says what is wrong.
+    const std::size_t fault = failed && error != std::string::npos ? error : warning;
+    if (fault != std::string::npos) log.erase(0, log.rfind('\n', fault) + 1);
+    const std::string message = "shader " + what + (log.empty() ? "the driver does not say what is wrong" : log);
+    if (failed || strict()) throw std::runtime_error(message);
+    std::cerr << message << "\n";
 }
 
-// Throws when the compiler has anything to complain of.
-GLuint compile(const ExpandedSource& source, const std::string& text, GLenum stage)
+GLuint compile(const ShaderSource& source, const std::string& text)
 {
-    const GLuint shader = glCreateShader(stage);
+    const std::string& file = source.files.front();
+    const GLuint shader = glCreateShader(stage_of(file));
     const char* begin = text.c_str();
     glShaderSource(shader, 1, &begin, nullptr);
     glCompileShader(shader);
     GLint ok = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    const std::string log = info_log(shader, glGetShaderiv, glGetShaderInfoLog);
-    if (!ok || warns(log)) {
+    try {
+        const std::string log = with_file_names(info_log(shader, glGetShaderiv, glGetShaderInfoLog), source);
+        judge(log.empty() ? file + ": " : "", log, ok == GL_FALSE);
+    } catch (...) {
         glDeleteShader(shader);
-        throw std::runtime_error("shader " + with_file_names(log, source));
+        throw;
     }
     return shader;
 }
 
+// For tools/check_shaders.py: the text as the driver gets it, once for every variant. Its sources are named at its end.
+void dump(const std::filesystem::path& folder, const ShaderSource& source)
+{
+    std::string text = source.text;
+    for (std::size_t i = 0; i < source.files.size(); ++i)
+        text += "// source string " + std::to_string(i) + ": " + source.files[i] + "\n";
+    const std::filesystem::path path(source.files.front());
+    const std::string name = path.stem().string() + "_" + std::to_string(std::hash<std::string>()(text));
+    std::filesystem::create_directories(folder);
+    std::ofstream out(folder / (name + path.extension().string()), std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw std::runtime_error(folder.string() + ": shaders cannot be written there (CONEBOOK_DUMP_SHADERS)");
+}
+
 GLuint compile(const std::filesystem::path& root, const std::string& file, const Defines& defines)
 {
-    ExpandedSource source;
-    expand(root, file, defines, source);
-    const GLenum stage = stage_of(file);
+    const ShaderSource source = expand_shader(root, file, defines);
+    if (const char* folder = std::getenv("CONEBOOK_DUMP_SHADERS")) dump(folder, source);
     // Mesa does not compile again, and says nothing of, a text that its disk cache knows: a warning would count once and
     // never more. So a text that it cannot know, with the time behind it, goes first; one that warns is then never cached.
-    // 0.2 to 4 ms a shader, 45 ms for the 36 of chapter 12 (llvmpipe, Mesa 22.3.6).
-    const bool is_mesa =
-        std::string(reinterpret_cast<const char*>(glGetString(GL_VERSION))).find("Mesa") != std::string::npos;
-    if (is_mesa) {
+    if (strict()) {
         const auto now = std::chrono::system_clock::now().time_since_epoch().count();
-        glDeleteShader(compile(source, source.text + "// " + std::to_string(now) + "\n", stage));
+        glDeleteShader(compile(source, source.text + "// " + std::to_string(now) + "\n"));
     }
-    return compile(source, source.text, stage);
+    return compile(source, source.text);
 }
 
 GLuint link(const std::filesystem::path& root, const std::vector<std::string>& files, const Defines& defines)
 {
     const GLuint program = glCreateProgram();
     std::vector<GLuint> shaders;
-    const auto release = [&] {
-        for (GLuint shader : shaders) glDeleteShader(shader);
-    };
     try {
         for (const std::string& file : files) {
             shaders.push_back(compile(root, file, defines));
             glAttachShader(program, shaders.back());
         }
+        glLinkProgram(program);
+        GLint ok = 0;
+        glGetProgramiv(program, GL_LINK_STATUS, &ok);
+        judge(files.back() + ": ", info_log(program, glGetProgramiv, glGetProgramInfoLog), ok == GL_FALSE);
     } catch (...) {
-        release();
+        for (const GLuint shader : shaders) glDeleteShader(shader);
         glDeleteProgram(program);
         throw;
     }
-    glLinkProgram(program);
-    release();
-    GLint ok = 0;
-    glGetProgramiv(program, GL_LINK_STATUS, &ok);
-    const std::string log = info_log(program, glGetProgramiv, glGetProgramInfoLog);
-    if (!ok || warns(log)) {
-        glDeleteProgram(program);
-        throw std::runtime_error("shader " + files.back() + ": " + log);
-    }
-    glObjectLabel(GL_PROGRAM, program, -1, files.back().c_str());
+    for (const GLuint shader : shaders) glDeleteShader(shader);
+    label_object(GL_PROGRAM, program, files.back());
     return program;
 }
 
@@ -222,6 +178,13 @@ void Shaders::reload()
             glDeleteProgram(state->id);
             state->id = fresh;
         }
+}
+
+const Program& ProgramVariants::with(const Defines& defines)
+{
+    Program& program = programs_[defines];
+    if (program.id() == 0) program = shaders_->load(files_, defines);
+    return program;
 }
 
 }  // namespace conebook::gl

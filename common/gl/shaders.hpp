@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,10 +9,9 @@
 #include <epoxy/gl.h>
 #include <glm/glm.hpp>
 
-namespace conebook::gl {
+#include "gl/shader_source.hpp"
 
-// #define NAME VALUE, placed after #version.
-using Defines = std::map<std::string, std::string>;
+namespace conebook::gl {
 
 // A linked program. Copies share it; after Shaders::reload all of them are the new one.
 class Program {
@@ -45,8 +43,8 @@ class Shaders {
 public:
     explicit Shaders(std::filesystem::path shader_root);
     // Compile and link; the stage follows from the extension (.vert .geom .frag .comp). Paths are relative to the
-    // shader root, as are those of #include "...", which takes each file once. Throws std::runtime_error with
-    // FILE:LINE of the fault; a warning of the compiler is a fault too.
+    // shader root (expand_shader). Throws std::runtime_error with FILE:LINE of the fault. A warning of the compiler is
+    // printed, or thrown when gl::strict(). $CONEBOOK_DUMP_SHADERS: a folder that gets the text of every shader.
     Program load(const std::vector<std::string>& files, const Defines& defines = {});
     // Compile again all programs still in use. On a fault the old programs stay and the fault is thrown.
     void reload();
@@ -54,6 +52,19 @@ public:
 private:
     std::filesystem::path root_;
     std::vector<std::weak_ptr<Program::State>> programs_;
+};
+
+// The same files compiled with different defines, each when it is first asked for.
+class ProgramVariants {
+public:
+    // `shaders` must outlive this. Throws as Shaders::load does, when a variant is made.
+    ProgramVariants(Shaders& shaders, std::vector<std::string> files) : shaders_(&shaders), files_(std::move(files)) {}
+    const Program& with(const Defines& defines);
+
+private:
+    Shaders* shaders_;
+    std::vector<std::string> files_;
+    std::map<Defines, Program> programs_;
 };
 
 }  // namespace conebook::gl

@@ -8,11 +8,12 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <tuple>
 
-#include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
 #include <tinyexr.h>
 #include <unistd.h>
+
+#include "image/codecs.hpp"
 
 namespace conebook {
 namespace {
@@ -106,6 +107,44 @@ struct ExrImageOwner {
     ExrImageOwner& operator=(const ExrImageOwner&) = delete;
 };
 
+// tinyexr leaves pixels uninitialised whose piece is missing: every piece of the full picture must be where the file's
+// table says ("OpenEXR File Layout", "Line Offset Table" and "Tile Offset Table").
+void check_pieces(const std::filesystem::path& file, const Bytes& bytes, const EXRHeader& header, std::int64_t width,
+                  std::int64_t height)
+{
+    const auto read = [&](std::uint64_t at, auto value) {
+        if (at > bytes.size() || bytes.size() - at < sizeof value) throw fault(file, "is truncated");
+        std::memcpy(&value, &bytes[at], sizeof value);
+        return value;
+    };
+    const std::int64_t lines = header.compression_type == TINYEXR_COMPRESSIONTYPE_PIZ   ? 32
+                               : header.compression_type == TINYEXR_COMPRESSIONTYPE_ZIP ? 16
+                                                                                        : 1;
+    const std::int64_t piece_w = header.tiled ? header.tile_size_x : width;
+    const std::int64_t piece_h = header.tiled ? header.tile_size_y : lines;
+    if (piece_w < 1 || piece_h < 1) throw fault(file, "broken OpenEXR data: tiles without a size");
+    const std::int64_t columns = (width + piece_w - 1) / piece_w, rows = (height + piece_h - 1) / piece_h;
+    constexpr std::uint64_t kMagicAndVersion = 8;
+    const std::uint64_t table = kMagicAndVersion + header.header_len;
+    read(table + 8 * std::uint64_t(columns * rows - 1), std::uint64_t());  // before anything is allocated for it
+    std::vector<bool> found(std::size_t(columns * rows));
+    for (std::uint64_t i = 0; i < found.size(); ++i) {
+        const auto at = read(table + 8 * i, std::uint64_t());
+        // A tile starts with its column and row, a piece of scan lines with the first of them.
+        std::int64_t column = 0, row = 0;
+        if (header.tiled) {
+            column = read(at, std::int32_t());
+            row = read(at + 4, std::int32_t());
+        } else {
+            const std::int64_t line = std::int64_t(read(at, std::int32_t())) - header.data_window.min_y;
+            row = line % lines == 0 ? line / lines : -1;
+        }
+        if (column < 0 || column >= columns || row < 0 || row >= rows || found[std::size_t(row * columns + column)])
+            throw fault(file, "broken OpenEXR data: a piece of the picture is missing");
+        found[std::size_t(row * columns + column)] = true;
+    }
+}
+
 }  // namespace
 
 void write_exr(const std::filesystem::path& file, const ImageF& image)
@@ -160,8 +199,8 @@ ImageF read_exr(const std::filesystem::path& file)
     ExrHeaderOwner header;
     const char* message = nullptr;
     if (ParseEXRHeaderFromMemory(&header.value, &version, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS)
-        throw fault(file, "broken OpenEXR header: " + take_message(message, "unknown reason"));
-    const auto& window = header.value.data_window;
+        throw fault(file, "its OpenEXR header cannot be read: " + take_message(message, "unknown reason"));
+    const EXRBox2i &window = header.value.data_window, &display = header.value.display_window;
     const std::int64_t width = std::int64_t(window.max_x) - window.min_x + 1;
     const std::int64_t height = std::int64_t(window.max_y) - window.min_y + 1;
     if (width <= 0 || height <= 0 || width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels)
@@ -170,6 +209,9 @@ ImageF read_exr(const std::filesystem::path& file)
     if (width * height > std::int64_t(bytes.size()) * 1100)
         throw fault(file, "is truncated: " + std::to_string(width) + "x" + std::to_string(height) + " pixels in " +
                               std::to_string(bytes.size()) + " bytes");
+    if (std::tie(window.min_x, window.min_y, window.max_x, window.max_y) !=
+        std::tie(display.min_x, display.min_y, display.max_x, display.max_y))
+        throw fault(file, "is a part of its picture only: its data window is not its display window");
 
     std::array<int, 4> plane{-1, -1, -1, -1};
     for (int c = 0; c < header.value.num_channels; ++c) {
@@ -183,13 +225,20 @@ ImageF read_exr(const std::filesystem::path& file)
             if (k < 3) throw fault(file, std::string("has no channel ") + "RGBA"[k]);
             continue;
         }
-        if (header.value.pixel_types[plane[k]] == TINYEXR_PIXELTYPE_UINT)
+        const EXRChannelInfo& channel = header.value.channels[plane[k]];
+        if (channel.pixel_type == TINYEXR_PIXELTYPE_UINT)
             throw fault(file, "integer channels are not supported (half or float is)");
+        if (channel.x_sampling != 1 || channel.y_sampling != 1)
+            throw fault(file, std::string("channel ") + channel.name + " does not have a value for every pixel");
     }
     for (int c = 0; c < header.value.num_channels; ++c)
         if (header.value.pixel_types[c] == TINYEXR_PIXELTYPE_HALF)
             header.value.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
 
+    check_pieces(file, bytes, header.value, width, height);
+    // lineOrder says in which order the pieces lie in the file. Each says itself where it belongs, and its rows run
+    // downwards ("OpenEXR File Layout"); tinyexr would turn the picture over, and lose tiles.
+    header.value.line_order = 0;
     ExrImageOwner exr;
     exr.value.num_channels = header.value.num_channels;  // else tinyexr loses the planes when it fails
     if (LoadEXRImageFromMemory(&exr.value, &header.value, bytes.data(), bytes.size(), &message) != TINYEXR_SUCCESS) {
@@ -221,34 +270,22 @@ ImageF read_exr(const std::filesystem::path& file)
 void write_png(const std::filesystem::path& file, const Image8& image)
 {
     check_size(file, image, image.rgba.size(), 4);
-    Bytes bytes;
-    const auto append = [](void* context, void* data, int size) {
-        auto* out = static_cast<Bytes*>(context);
-        const auto* first = static_cast<const unsigned char*>(data);
-        out->insert(out->end(), first, first + size);
-    };
-    if (!stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.rgba.data(), image.width * 4))
-        throw fault(file, "cannot be written: PNG encoding failed");
+    const Bytes bytes = encode_png(image);
     write_bytes(file, bytes.data(), bytes.size());
 }
 
 Image8 read_png(const std::filesystem::path& file)
 {
     const Bytes bytes = read_bytes(file);
-    static constexpr unsigned char signature[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    if (bytes.size() < 8 || std::memcmp(bytes.data(), signature, 8) != 0) throw fault(file, "is not a PNG file");
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels) ||
-        std::int64_t(width) * height > kMaxPixels || std::int64_t(width) * height > std::int64_t(bytes.size()) * 8800)
-        throw fault(file, "broken PNG header");
-    const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-        stbi_load_from_memory(bytes.data(), int(bytes.size()), &width, &height, &channels, 4), stbi_image_free);
-    if (!pixels) {
-        const char* reason = stbi_failure_reason();
-        throw fault(file, std::string("broken PNG data: ") + (reason ? reason : "unknown reason"));
+    if (codec_of(bytes) != Codec::png) throw fault(file, "is not a PNG file");
+    try {
+        const auto [width, height] = size_of_png(bytes);
+        if (std::int64_t(width) * height > kMaxPixels)
+            throw std::runtime_error("is too large: " + std::to_string(width) + "x" + std::to_string(height));
+        return decode_png(bytes);
+    } catch (const std::runtime_error& e) {
+        throw fault(file, e.what());
     }
-    return Image8{width, height,
-                  std::vector<std::uint8_t>(pixels.get(), pixels.get() + std::size_t(width) * height * 4)};
 }
 
 }  // namespace conebook

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -105,6 +106,7 @@ ImageMetrics compare_images(const ImageF& image, const ImageF& reference, const 
     const double floor2 = kRelativeFloor * m.mean_reference * m.mean_reference;
     std::vector<double> relative;
     relative.reserve(pairs.size());
+    double noise_smape = 0.0;
     for (const Pair& p : pairs) {
         const double d = std::abs(p.image - p.reference);
         const double both = std::abs(p.image) + std::abs(p.reference);
@@ -112,6 +114,8 @@ ImageMetrics compare_images(const ImageF& image, const ImageF& reference, const 
         relative.push_back(relative_error);
         m.mape += relative_error / n;
         m.smape += both > 0.0 ? d / both / n : 0.0;
+        const double noise = std::sqrt(2.0 / std::numbers::pi * p.variance);
+        noise_smape += noise > 0.0 ? std::min(noise / both, 1.0) / n : 0.0;
         m.rel_mse += d > 0.0 ? d * d / (p.reference * p.reference + floor2) / n : 0.0;
     }
     const auto rank = std::size_t(std::ceil(0.95 * n)) - 1;
@@ -120,6 +124,7 @@ ImageMetrics compare_images(const ImageF& image, const ImageF& reference, const 
     if (options.reference_error) {
         m.noise_rms = std::sqrt(variance);
         m.rmse_without_noise = std::sqrt(std::max(mse - variance, 0.0));
+        m.noise_smape = noise_smape;
         m.noisy_reference = *m.noise_rms > kNoiseShare * m.rmse;
     }
     if (options.flip) m.flip = hdr_flip_mean(image, reference);

@@ -26,7 +26,10 @@ struct ImageMetrics {
     // With the reference's standard error s (independent per pixel): mean s^2 is what noise adds to mean (I - R)^2.
     std::optional<double> noise_rms;           // sqrt(mean s^2), radiance
     std::optional<double> rmse_without_noise;  // sqrt(max(mean (I - R)^2 - mean s^2, 0))
-    bool noisy_reference = false;              // noise_rms is above a tenth of rmse: more samples are needed
+    // What noise alone would make of smape if I were the truth: mean of E|s| / (|I| + |R|), with E|s| = sqrt(2 / pi) s for
+    // a normal distribution. With an error of its own the picture's SMAPE holds less of it.
+    std::optional<double> noise_smape;
+    bool noisy_reference = false;  // noise_rms is above a tenth of rmse: more samples are needed
 };
 
 struct CompareOptions {

@@ -108,8 +108,10 @@ int run(int argc, char** argv)
     if (m.noise_rms) {
         json["noise_rms"] = number(*m.noise_rms);
         json["rmse_without_noise"] = number(*m.rmse_without_noise);
+        json["noise_smape"] = number(*m.noise_smape);
         json["noisy_reference"] = m.noisy_reference;
-        std::printf("RMSE without the reference's noise  %.5g   (noise %.5g)\n", *m.rmse_without_noise, *m.noise_rms);
+        std::printf("RMSE without the reference's noise  %.5g   (noise %.5g; of SMAPE %.5g)\n", *m.rmse_without_noise,
+                    *m.noise_rms, *m.noise_smape);
         if (m.noisy_reference)
             std::printf("the reference's noise is above a tenth of the error: render it with more samples\n");
     }

@@ -66,6 +66,8 @@ public:
     {
     }
 
+    const Scene& scene() const { return tracer_.scene(); }
+
     // Along one ray of the camera, with `bounces` and `sky` as in PathTraceOptions.
     Sample sample(const Ray& camera, int bounces, const glm::vec3& sky, Pcg32& rng) const
     {
@@ -275,6 +277,7 @@ struct PathTracer::Work {
     Integrator integrator;
     int threads;
     Camera camera;
+    DepthRange depths{};
     PathTraceOptions options;
     std::vector<Accumulator> accumulators;  // a pixel's parts side by side
     std::vector<std::uint32_t> covered;     // samples that met geometry
@@ -294,6 +297,7 @@ void PathTracer::start(const Camera& camera, const PathTraceOptions& options)
     Work& w = *work_;
     const std::size_t pixels = std::size_t(options.width) * std::size_t(options.height);
     w.camera = camera;
+    w.depths = visible_depths(camera, w.integrator.scene().bounds);
     w.options = options;
     w.accumulators.assign(pixels * options.parts.size(), {});
     w.covered.assign(pixels, 0);
@@ -314,8 +318,8 @@ void PathTracer::Work::render_tile(int tile, int first_sample, int last_sample)
             for (int i = first_sample; i < last_sample; ++i) {
                 Pcg32 rng(options.seed, pixel, std::uint64_t(i));
                 const glm::vec2 jitter = rng.next_2d();
-                const Ray ray =
-                    camera_ray(camera, float(x) + jitter.x, float(y) + jitter.y, options.width, options.height);
+                const Ray ray = camera_ray(camera, depths, float(x) + jitter.x, float(y) + jitter.y, options.width,
+                                           options.height);
                 const Sample sample = integrator.sample(ray, options.bounces, options.sky, rng);
                 // end snippet
                 covered[pixel] += sample.covered;
@@ -398,6 +402,7 @@ PathTraceResult path_trace(const Scene& scene, const Camera& camera, const PathT
     };
     PathTracer tracer(scene, options.threads);
     tracer.start(camera, options);
+    double sample_seconds = -seconds();
     for (int done = 0, pass = 0; done < options.spp; done += pass) {
         pass = std::min(kPassSpp, options.spp - done);
         std::function<void(double)> progress;
@@ -406,7 +411,9 @@ PathTraceResult path_trace(const Scene& scene, const Camera& camera, const PathT
         tracer.add_samples(pass, {}, progress);
         if (options.max_seconds > 0.0 && seconds() > options.max_seconds) break;
     }
+    sample_seconds += seconds();
     PathTraceResult result = tracer.result();
+    result.sample_seconds = sample_seconds;
     result.seconds = seconds();
     return result;
 }

@@ -50,7 +50,8 @@ struct PathTraceResult {
     std::vector<ImageF> errors;    // standard error of each channel of each pixel, 0 when spp is 1; alpha 1
     int spp = 0;                   // samples taken
     std::uint64_t non_finite = 0;  // samples left out because they were NaN or infinite; 0 for a valid scene
-    double seconds = 0.0;
+    double seconds = 0.0;         // in all
+    double sample_seconds = 0.0;  // for the samples alone: no acceleration structure, no sums made into pictures
 };
 
 // The path tracer in passes, for whoever shows pictures before they are done. Every sample of every pixel has random

@@ -160,22 +160,22 @@ bool SceneTracer::occluded(const glm::vec3& from, const glm::vec3& to) const
     return rh.ray.tfar < 0.0f;  // Embree sets -infinity
 }
 
-Ray camera_ray(const Camera& camera, float x, float y, int width, int height)
+Ray camera_ray(const Camera& camera, const DepthRange& depths, float x, float y, int width, int height)
 {
-    const float ndc_x = 2.0f * x / float(width) - 1.0f;
-    const float ndc_y = 1.0f - 2.0f * y / float(height);
-    glm::vec3 origin(0.0f), direction(0.0f, 0.0f, -1.0f);  // camera space; direction.z = -1, so t is depth
+    const double ndc_x = 2.0 * double(x) / width - 1.0, ndc_y = 1.0 - 2.0 * double(y) / height;
+    glm::dvec3 origin(0.0), direction(0.0, 0.0, -1.0);  // camera space; direction.z = -1, so t is depth
     if (camera.orthographic) {
-        origin = {ndc_x * camera.x_mag, ndc_y * camera.y_mag, 0.0f};
+        origin = {ndc_x * camera.x_mag, ndc_y * camera.y_mag, 0.0};
     } else {
-        const float half = std::tan(0.5f * camera.y_fov);
-        direction = {ndc_x * half * float(width) / float(height), ndc_y * half, -1.0f};
+        const double half = std::tan(0.5 * camera.y_fov);
+        direction = {ndc_x * half * width / height, ndc_y * half, -1.0};
     }
+    // Floats only from the scene on: a direction rounded 100 km away would miss by centimetres.
+    const glm::dmat4 scene_from_camera(camera.world_from_camera);
     Ray ray;
-    ray.origin = glm::vec3(camera.world_from_camera * glm::vec4(origin, 1.0f));
-    ray.direction = glm::mat3(camera.world_from_camera) * direction;
-    ray.t_min = camera.z_near;
-    if (camera.z_far > 0.0f) ray.t_max = camera.z_far;
+    ray.origin = glm::vec3(scene_from_camera * glm::dvec4(origin + depths.near * direction, 1.0));
+    ray.direction = glm::vec3(glm::dmat3(scene_from_camera) * direction);
+    ray.t_max = float(depths.far - depths.near);
     return ray;
 }
 

@@ -52,8 +52,8 @@ private:
     std::unique_ptr<Embree> embree_;
 };
 
-// The ray through a point of the picture: x in [0, width), y in [0, height), y = 0 on top. It starts at the near plane
-// and ends at the far plane, as clipping does.
-Ray camera_ray(const Camera& camera, float x, float y, int width, int height);
+// The ray through a point of the picture: x in [0, width), y in [0, height), y = 0 on top. It starts and ends at the
+// `depths` (see visible_depths), as clipping does.
+Ray camera_ray(const Camera& camera, const DepthRange& depths, float x, float y, int width, int height);
 
 }  // namespace conebook

@@ -181,8 +181,24 @@ Camera choose_camera(const Scene& scene, std::optional<int> index)
     camera.world_from_camera = glm::mat4(glm::vec4(x, 0.0f), glm::vec4(glm::cross(z, x), 0.0f), glm::vec4(z, 0.0f),
                                          glm::vec4(scene.bounds.center() + distance * z, 1.0f));
     camera.z_near = 0.02f * distance;
-    camera.z_far = distance + 2.0f * radius;
     return camera;
+}
+
+DepthRange visible_depths(const Camera& camera, const Bounds& bounds)
+{
+    const glm::dvec3 eye(camera.world_from_camera[3]), forward(-camera.world_from_camera[2]);
+    double nearest = INFINITY, farthest = -INFINITY;
+    for (int i = 0; i < 8; ++i) {
+        const double depth = glm::dot(glm::dvec3(bounds.corner(i)) - eye, forward);
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    // Room for the rounding of vertices to float, and of these sums to double.
+    const double room = 1e-5 * glm::length(glm::dvec3(bounds.extent())) + 1e-12 * glm::length(eye) + 1e-30;
+    const double near = camera.z_near, far = camera.z_far > camera.z_near ? double(camera.z_far) : INFINITY;
+    const DepthRange range{std::max(near, nearest - room), std::min(far, farthest + room)};
+    if (range.near < range.far) return range;
+    return {near, far < INFINITY ? far : 2.0 * near + 1.0};  // the scene is behind the camera or beyond its far plane
 }
 
 }  // namespace conebook

@@ -176,19 +176,53 @@ void check_extensions(const json& root, Warnings& warnings)
     }
 }
 
-void check_compression(const json& root)
+// The unsupported extension whose stream is all the data that buffer `i` stands for, or "". EXT_meshopt_compression and
+// its successors mark a buffer that only a decoder can fill as a fallback, and need not give it bytes.
+std::string extension_that_fills(const json& root, std::size_t i, bool has_binary)
 {
-    // Optional compression with no uncompressed fallback: accessors without data would silently read as zeros.
-    for (const json& mesh : elements(root, "meshes")) {
-        for (const json& primitive : mesh.at("primitives")) {
-            if (!primitive.contains("extensions")) continue;
-            if (!primitive.at("extensions").contains("KHR_draco_mesh_compression")) continue;
-            for (const json& accessor : primitive.at("attributes")) {
-                const json& a = root.at("accessors").at(accessor.get<std::size_t>());
-                if (a.contains("bufferView") || a.contains("sparse")) continue;
-                fail(
-                    "a primitive is compressed by KHR_draco_mesh_compression, which is not supported, and has no "
-                    "uncompressed data");
+    const json& buffer = root.at("buffers").at(i);
+    if (buffer.contains("uri") || (i == 0 && has_binary) || !buffer.contains("extensions")) return "";
+    for (const auto& [name, extension] : buffer.at("extensions").items()) {
+        if (extension.is_object() && extension.value("fallback", json()) == true) return name;
+    }
+    return "";
+}
+
+// Optional compression without an uncompressed fallback: what it leaves out would silently read as zeros.
+void check_compression(const json& root, bool has_binary)
+{
+    const auto refuse = [](const std::string& what, const std::string& extension) {
+        fail(what + " is compressed by " + extension + ", which is not supported, and has no uncompressed data");
+    };
+    const auto check_view = [&](const json& owner, const std::string& what) {
+        if (!owner.contains("bufferView")) return;
+        const json& view = root.at("bufferViews").at(owner.at("bufferView").get<std::size_t>());
+        const std::string extension = extension_that_fills(root, view.at("buffer").get<std::size_t>(), has_binary);
+        if (!extension.empty()) refuse(what, extension);
+    };
+    const json& meshes = elements(root, "meshes");
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+        const json& primitives = meshes[m].at("primitives");
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const std::string where = "meshes[" + std::to_string(m) + "].primitives[" + std::to_string(p) + "].";
+            json accessors = primitives[p].at("attributes");
+            if (primitives[p].contains("indices")) accessors["indices"] = primitives[p].at("indices");
+            for (const auto& [name, index] : accessors.items()) {
+                const json& accessor = root.at("accessors").at(index.get<std::size_t>());
+                check_view(accessor, where + name);
+                if (accessor.contains("sparse")) {
+                    check_view(accessor.at("sparse").at("indices"), where + name);
+                    check_view(accessor.at("sparse").at("values"), where + name);
+                }
+                // An extension with a bufferView of its own (KHR_draco_mesh_compression) holds the indices and the
+                // attributes that it lists. Sparse values may replace some of what they are, not all.
+                if (accessor.contains("bufferView") || !primitives[p].contains("extensions")) continue;
+                for (const auto& [extension, stream] : primitives[p].at("extensions").items()) {
+                    if (!stream.is_object() || !stream.contains("bufferView")) continue;
+                    const json listed = stream.value("attributes", json());
+                    if (name == "indices" || !listed.is_object() || listed.contains(name))
+                        refuse(where + name, extension);
+                }
             }
         }
     }
@@ -251,6 +285,9 @@ void read_buffers(const json& root, const Container& container, Document& docume
             buffer.data = read_uri(document, buffer.uri, what);
         } else if (i == 0 && container.has_binary) {
             buffer.data = container.binary;
+        } else if (!extension_that_fills(root, i, container.has_binary).empty()) {
+            document.model.buffers.push_back(std::move(buffer));  // nothing that is read lies in it: check_compression
+            continue;
         } else {
             fail(what + " has neither a uri nor a binary chunk in a .glb");
         }
@@ -326,7 +363,7 @@ Document read_document(const std::filesystem::path& file, Warnings& warnings)
     check_version(root);
     check_gltf(root);
     check_extensions(root, warnings);
-    check_compression(root);
+    check_compression(root, container.has_binary);
 
     // tinygltf gets what it is good at, the typed structs; not what it would read or decode unchecked.
     json slim = root;

@@ -24,7 +24,7 @@ constexpr std::uint64_t max_triangles = 100'000'000;           // after instanci
 constexpr std::uint64_t max_vertices = 50'000'000;             // after instancing
 constexpr std::uint64_t max_image_pixels = 1u << 26;           // one image: 64 Mpx
 constexpr std::uint64_t max_total_pixels = 1u << 29;           // all images: 2 GiB as RGBA
-constexpr std::uint64_t max_pixels_per_byte = 10'000;  // deflate reaches 1032:1, and a byte holds 8 1-bit pixels
+constexpr int max_image_side = 16384;                          // wider ones are shrunk: see images.cpp
 constexpr int max_json_depth = 64;
 
 struct Document {

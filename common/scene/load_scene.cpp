@@ -233,7 +233,7 @@ Scene read_scene(const std::filesystem::path& file)
     for (const PlacedMesh& place : placed) append(scene, place);
 
     scene.materials = materials.materials;
-    scene.images = read_images(document, materials.image_sources);
+    scene.images = read_images(document, materials.images, scene.warnings);
     settle_blending(scene, materials);
     scene.cameras = read_cameras(document, nodes, scene.origin_ws, scene.warnings);
     scene.lights = read_lights(document, nodes, scene.origin_ws, scene.warnings);
@@ -251,7 +251,9 @@ std::string one_line(std::string text)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
     }
     while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-    if (text.size() > 500) text = text.substr(0, 500) + " ...";
+    std::size_t end = 500;
+    while (end < text.size() && (text[end] & 0xc0) == 0x80) --end;  // not within a character of UTF-8
+    if (text.size() > end) text = text.substr(0, end) + " ...";
     return text;
 }
 

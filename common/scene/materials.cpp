@@ -98,8 +98,9 @@ private:
         if (value < 0.0 || value > 1.0) warn(warnings_, where_ + ": " + what + " is outside 0..1 and is clamped");
         return static_cast<float>(std::clamp(value, 0.0, 1.0));
     }
-    TextureSlot slot(const TextureInfo& info);
-    int image_index(int source);
+    // `encoding` of what the material takes from the texture.
+    TextureSlot slot(const TextureInfo& info, Encoding encoding);
+    int image_index(int source, Encoding encoding);
     void assign_uv_sets(Material& material, MaterialReading& reading);
 
     const Document& document_;
@@ -114,18 +115,17 @@ Wrap wrap_mode(int mode)
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirrored_repeat : Wrap::repeat;
 }
 
-int MaterialReader::image_index(int source)
+int MaterialReader::image_index(int source, Encoding encoding)
 {
-    const auto found = std::find(all_.image_sources.begin(), all_.image_sources.end(), source);
-    if (found == all_.image_sources.end()) {
-        all_.image_sources.push_back(source);
-        return static_cast<int>(all_.image_sources.size()) - 1;
-    }
-    return static_cast<int>(found - all_.image_sources.begin());
+    auto found = std::find_if(all_.images.begin(), all_.images.end(),
+                              [&](const ImageSource& image) { return image.image == source; });
+    if (found == all_.images.end()) found = all_.images.insert(found, {source, Encoding::linear});
+    if (encoding == Encoding::srgb) found->encoding = Encoding::srgb;
+    return static_cast<int>(found - all_.images.begin());
 }
 
 // uv_set of the result is still the file's; assign_uv_sets maps it to 0 or 1.
-TextureSlot MaterialReader::slot(const TextureInfo& info)
+TextureSlot MaterialReader::slot(const TextureInfo& info, Encoding encoding)
 {
     TextureSlot result;
     if (info.texture < 0) return result;
@@ -134,7 +134,7 @@ TextureSlot MaterialReader::slot(const TextureInfo& info)
         warn(warnings_, "textures[" + std::to_string(info.texture) + "] has no PNG or JPEG image and is ignored");
         return result;
     }
-    result.image = image_index(texture.source);
+    result.image = image_index(texture.source, encoding);
     result.uv_set = info.uv_set;
     result.uv_transform = info.uv_transform;
     if (texture.sampler < 0) return result;
@@ -193,10 +193,10 @@ void MaterialReader::read(std::size_t index)
     material.roughness = limited(pbr.roughnessFactor, "roughnessFactor");
     material.normal_scale = to_float(source.normalTexture.scale, where_ + ": normalTexture.scale");
     material.double_sided = source.doubleSided;
-    material.base_color_texture = slot(texture_info(pbr.baseColorTexture));
-    material.metallic_roughness_texture = slot(texture_info(pbr.metallicRoughnessTexture));
-    material.normal_texture = slot(texture_info(source.normalTexture));
-    material.emission_texture = slot(texture_info(source.emissiveTexture));
+    material.base_color_texture = slot(texture_info(pbr.baseColorTexture), Encoding::srgb);
+    material.metallic_roughness_texture = slot(texture_info(pbr.metallicRoughnessTexture), Encoding::linear);
+    material.normal_texture = slot(texture_info(source.normalTexture), Encoding::linear);
+    material.emission_texture = slot(texture_info(source.emissiveTexture), Encoding::srgb);
 
     double strength = 1.0;
     if (const Value* extension = find(source.extensions, "KHR_materials_emissive_strength")) {
@@ -214,8 +214,8 @@ void MaterialReader::read(std::size_t index)
             if (color[c] < 0.0) fail(where_ + " has a negative specularColorFactor");
             material.specular_color[c] = to_float(color[c], where_ + ": specularColorFactor");
         }
-        material.specular_texture = slot(texture_info(*extension, "specularTexture"));
-        material.specular_color_texture = slot(texture_info(*extension, "specularColorTexture"));
+        material.specular_texture = slot(texture_info(*extension, "specularTexture"), Encoding::linear);
+        material.specular_color_texture = slot(texture_info(*extension, "specularColorTexture"), Encoding::srgb);
     }
     material.unlit = find(source.extensions, "KHR_materials_unlit") != nullptr;
 

@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 
+#include "image/resample.hpp"
 #include "scene/document.hpp"
 #include "scene/scene.hpp"
 
@@ -53,15 +54,19 @@ struct MaterialReading {
     std::array<int, 2> uv_sets{0, 1};  // the file's TEXCOORD_n that become Vertex::uv0 and uv1
     bool blend = false;                // alphaMode BLEND: settled when textures and vertices are known
 };
+struct ImageSource {
+    int image = 0;                          // of the file
+    Encoding encoding = Encoding::linear;   // sRGB where any material takes colour from it
+};
 struct Materials {
     std::vector<Material> materials;
     std::vector<MaterialReading> readings;  // as many
-    std::vector<int> image_sources;         // glTF image of each Scene::images entry
+    std::vector<ImageSource> images;        // of each Scene::images entry
 };
 Materials read_materials(const Document& document, Warnings& warnings);
 
-// ---- images.cpp: decode PNG and JPEG with stb, two at a time ----
-std::vector<Image> read_images(const Document& document, const std::vector<int>& image_sources);
+// ---- images.cpp: decode PNG and JPEG, two at a time ----
+std::vector<Image> read_images(const Document& document, const std::vector<ImageSource>& sources, Warnings& warnings);
 
 // ---- primitives.cpp: one glTF primitive as a triangle list in mesh space, with only the vertices that it uses ----
 struct LocalMesh {

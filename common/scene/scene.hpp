@@ -106,6 +106,8 @@ struct Bounds {
     glm::vec3 extent() const { return max - min; }
     glm::vec3 center() const { return 0.5f * (min + max); }
     float longest_side() const { auto e = extent(); return glm::max(e.x, glm::max(e.y, e.z)); }
+    // 0 .. 7: bit 0, 1, 2 choose max over min in x, y, z.
+    glm::vec3 corner(int i) const { return {i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z}; }
 };
 
 struct Scene {
@@ -141,5 +143,13 @@ Scene load_scene(const std::filesystem::path& file);
 // The camera to render with: the Nth of the file, or (index empty) the first of the file, or, when the file has
 // none, one that frames the bounds. Throws std::runtime_error when the file has no Nth camera.
 Camera choose_camera(const Scene& scene, std::optional<int> index);
+
+// Distances along the camera's axis, m: near > 0 for a perspective, far > near.
+struct DepthRange {
+    double near, far;
+};
+// What lies in `bounds` and between the camera's near and far planes lies between these two, which are as close together
+// as that allows: depth and rays that begin there do not lose their digits to the empty way to a scene far away.
+DepthRange visible_depths(const Camera& camera, const Bounds& bounds);
 
 }  // namespace conebook

@@ -38,7 +38,7 @@ void main()
     case kShowEmission: value = s.material.emission; break;
     case kShowBaseColor: value = s.material.base_color; break;
     case kShowNormal: value = 0.5 + 0.5 * s.normal; break;
-    case kShowDepth: value = vec3(-(camera.view_from_scene * vec4(s.position, 1.0)).z); break;
+    case kShowDepth: value = vec3(axial_distance(s.position)); break;
     }
     color = vec4(value, 1.0);
 }

@@ -2,7 +2,7 @@
 // Draw, for each triangle, every pixel of its column plane that the triangle touches, however little.
 // Moving the edges out by the reach of half a pixel: Hasselgren et al. 2005, GPU Gems 2, chapter 42, second algorithm.
 // ATTRIBUTES: 1 to hand on what the vertices have besides their positions (chapter 05).
-#include "common/triangle_voxels.glsl"
+#include "04_conservative_voxelization/triangle_voxels.glsl"
 #if !ATTRIBUTES
 #include "common/voxel_counters.glsl"
 #endif
@@ -11,7 +11,7 @@ layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
 flat out GridTriangle triangle;
 #if ATTRIBUTES
-#include "common/triangle_attributes.glsl"
+#include "05_atomic_averaging/triangle_attributes.glsl"
 flat out TriangleAttributes attributes;
 #endif
 

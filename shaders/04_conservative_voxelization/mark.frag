@@ -1,3 +1,3 @@
 #version 450 core
 #include "04_conservative_voxelization/mark.glsl"
-#include "common/voxelize_fragment.glsl"
+#include "04_conservative_voxelization/voxelize_fragment.glsl"

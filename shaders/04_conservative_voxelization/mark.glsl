@@ -1,9 +1,9 @@
 // Set the bit of the triangle's face in the voxel; a double-sided triangle has two.
-#include "common/triangle_voxels.glsl"
+#include "04_conservative_voxelization/triangle_voxels.glsl"
 #include "common/voxel_counters.glsl"
 #include "common/scene_structs.glsl"
 
-layout(std140, binding = 3) uniform MaterialBlock { MaterialData drawn_material; };
+layout(std140, binding = kMaterialBlock) uniform MaterialBlock { MaterialData drawn_material; };
 layout(r32ui, binding = 0) uniform uimage3D occupancy;
 #if COUNT_FRAGMENTS
 layout(r32ui, binding = 1) uniform uimage3D fragment_counts;

@@ -2,7 +2,7 @@
 // Show the voxels as cubes: what the camera's ray meets first.
 #include "common/camera_ray.glsl"
 #include "common/color_scales.glsl"
-#include "common/voxel_walk.glsl"
+#include "04_conservative_voxelization/voxel_walk.glsl"
 
 layout(binding = kPackedColorUnit) uniform usampler3D heat;
 uniform int level;

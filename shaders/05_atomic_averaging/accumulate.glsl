@@ -1,13 +1,14 @@
 // Add a fragment to the sums of its voxel's face: exact area, exact centre of area, the material there.
 // TEXTURES, EMISSION: 1 when some material of the scene has them.
-#include "common/triangle_voxels.glsl"
-#include "common/triangle_attributes.glsl"
-#include "common/face_index.glsl"
+#include "04_conservative_voxelization/triangle_voxels.glsl"
+#include "05_atomic_averaging/triangle_attributes.glsl"
+#include "05_atomic_averaging/face_index.glsl"
 #include "05_atomic_averaging/triangle_part.glsl"
 #include "05_atomic_averaging/voxel_material.glsl"
 
 layout(r32ui, binding = 0) readonly uniform uimage3D face_index;
-layout(std430, binding = 9) buffer SumBuffer { uint sums[]; };  // a face: kSumCount low words, as many high ones
+// Of a face kSumCount low words, then as many high ones.
+layout(std430, binding = kSumBinding) buffer SumBuffer { uint sums[]; };
 
 // 64-bit addition in two 32-bit atomics: whoever makes the low word wrap carries one into the high word. Integer sums
 // do not depend on the order of the threads, so every run gives the same bits.

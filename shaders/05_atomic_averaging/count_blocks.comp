@@ -5,7 +5,7 @@
 
 layout(local_size_x = 64) in;
 layout(binding = kOccupancyUnit) uniform usampler3D occupancy;
-layout(std430, binding = 6) writeonly buffer BlockBuffer { Block blocks[]; };
+layout(std430, binding = kBlockBinding) writeonly buffer BlockBuffer { Block blocks[]; };
 
 void main()
 {

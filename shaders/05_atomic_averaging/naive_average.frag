@@ -2,8 +2,8 @@
 // Two ways to put many fragments into one 8-bit texel, for comparison with the sums; the material is the same.
 // RACING_STORE: the last writer wins. Otherwise: running mean by compare-and-swap with the count in alpha
 // (Crassin & Green 2012, listing 22.2; Villegas 2016, section 4.2): C(i+1) = (i C(i) + x(i+1)) / (i+1).
-#include "common/triangle_voxels.glsl"
-#include "common/triangle_attributes.glsl"
+#include "04_conservative_voxelization/triangle_voxels.glsl"
+#include "05_atomic_averaging/triangle_attributes.glsl"
 #include "05_atomic_averaging/triangle_part.glsl"
 #include "05_atomic_averaging/voxel_material.glsl"
 
@@ -34,4 +34,4 @@ void visit(GridTriangle t, ivec3 voxel_t)
     // end snippet
 #endif
 }
-#include "common/voxelize_fragment.glsl"
+#include "04_conservative_voxelization/voxelize_fragment.glsl"

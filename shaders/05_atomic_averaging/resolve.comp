@@ -4,9 +4,9 @@
 #include "common/voxel_counters.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 8) readonly buffer FaceListBuffer { uint face_list[]; };
-layout(std430, binding = 9) readonly buffer SumBuffer { uint sums[]; };
-layout(std430, binding = 10) writeonly buffer FaceBuffer { VoxelFace faces[]; };
+layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
+layout(std430, binding = kSumBinding) readonly buffer SumBuffer { uint sums[]; };
+layout(std430, binding = kFaceBinding) writeonly buffer FaceBuffer { VoxelFace faces[]; };
 
 float sum_of(uint place, int sum)
 {

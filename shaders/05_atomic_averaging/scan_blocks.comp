@@ -7,7 +7,7 @@
 #include "05_atomic_averaging/blocks.glsl"
 
 layout(local_size_x = 256) in;
-layout(std430, binding = 6) buffer BlockBuffer { Block blocks[]; };
+layout(std430, binding = kBlockBinding) buffer BlockBuffer { Block blocks[]; };
 
 shared uvec2 run_sum[256];
 

@@ -1,5 +1,5 @@
 // The part of a triangle inside a voxel: its exact area and centre of area, without building the polygon.
-// Included after common/triangle_voxels.glsl.
+// Included after 04_conservative_voxelization/triangle_voxels.glsl.
 //
 // Seen along z the part is a polygon, and Green's theorem turns its area and first moments into sums over edges:
 //     area = |sum of integrals of y dx|,  moments: integrals of x y dx and of y^2/2 dx

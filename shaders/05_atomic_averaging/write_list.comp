@@ -6,9 +6,10 @@
 layout(local_size_x = 64) in;
 layout(binding = kOccupancyUnit) uniform usampler3D occupancy;
 layout(r32ui, binding = 1) writeonly uniform uimage3D face_index;  // first face << 6 | mask of faces; 0 where empty
-layout(std430, binding = 6) readonly buffer BlockBuffer { Block blocks[]; };
-layout(std430, binding = 7) writeonly buffer VoxelListBuffer { uint voxel_list[]; };  // packed voxel
-layout(std430, binding = 8) writeonly buffer FaceListBuffer { uint face_list[]; };    // packed voxel | face << 27
+layout(std430, binding = kBlockBinding) readonly buffer BlockBuffer { Block blocks[]; };
+// Packed voxel, and packed voxel | face << 27.
+layout(std430, binding = kVoxelListBinding) writeonly buffer VoxelListBuffer { uint voxel_list[]; };
+layout(std430, binding = kFaceListBinding) writeonly buffer FaceListBuffer { uint face_list[]; };
 
 void main()
 {

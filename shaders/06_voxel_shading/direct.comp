@@ -1,21 +1,22 @@
 #version 450 core
-// Direct light of every occupied face: L = Le + (rho / pi) E, one thread a face.
+// Direct light that every occupied face reflects: L = (rho / pi) E, one thread a face. What it emits is kept apart.
 // SHADOWS 0: none, 1: shadow maps, 2: hard rays through the volume, 3: soft rays. DIRECTIONAL_LAMBERT 0 or 1.
 #include "common/scene_structs.glsl"
 #include "common/brdf.glsl"
 #include "common/light.glsl"
 #include "common/voxel_counters.glsl"
-#include "common/voxel_walk.glsl"
+#include "04_conservative_voxelization/voxel_walk.glsl"
 #if SHADOWS == 1
 #include "common/shadow_map.glsl"
 #endif
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 1) readonly buffer LightBuffer { LightData lights[]; };
-layout(std430, binding = 8) readonly buffer FaceListBuffer { uint face_list[]; };
-layout(std430, binding = 10) readonly buffer FaceBuffer { VoxelFace faces[]; };
-layout(std430, binding = 11) writeonly buffer RadianceBuffer { vec4 face_radiance[]; };     // rgb L, a visibility
-layout(std430, binding = 12) writeonly buffer VisibilityBuffer { uint face_visibility[]; };  // 4 x 8 bit: lights 0..3
+layout(std430, binding = kLightBinding) readonly buffer LightBuffer { LightData lights[]; };
+layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
+layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
+// rgb L, a visible share of all lights; 4 x 8 bit: lights 0..3.
+layout(std430, binding = kRadianceBinding) writeonly buffer RadianceBuffer { vec4 face_radiance[]; };
+layout(std430, binding = kVisibilityBinding) writeonly buffer VisibilityBuffer { uint face_visibility[]; };
 uniform int light_count;
 uniform float soft_sharpness;  // voxels
 
@@ -90,7 +91,7 @@ void main()
         if (i < 4) visibility[i] = visible;
     }
     // snippet: radiance
-    vec3 radiance = face.emission.rgb + face.albedo_area.rgb / kPi * irradiance;
+    vec3 radiance = face.albedo_area.rgb / kPi * irradiance;
     face_radiance[place] = vec4(radiance, total > 0.0 ? unshadowed / total : 1.0);
     face_visibility[place] = packUnorm4x8(visibility);
     // end snippet

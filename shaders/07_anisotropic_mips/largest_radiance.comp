@@ -4,10 +4,10 @@
 #include "common/voxel_counters.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 10) readonly buffer FaceBuffer { VoxelFace faces[]; };
-layout(std430, binding = 11) readonly buffer RadianceBuffer { vec4 face_radiance[]; };
+layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
+layout(std430, binding = kRadianceBinding) readonly buffer RadianceBuffer { vec4 face_radiance[]; };
 // Float bits, which have the floats' order from 0 up.
-layout(std430, binding = 13) buffer ScaleBuffer { uint largest; };
+layout(std430, binding = kLightScaleBinding) buffer ScaleBuffer { uint largest; };
 
 uniform vec2 part;  // of radiance and emission, as in light_base.comp
 

@@ -2,13 +2,14 @@
 // Next level: of two voxels behind each other the front one hides as much of the back one as must overlap, four columns
 // beside each other are averaged (after Crassin 2011, section 5; Villegas 2016, section 3.5.1).
 #include "07_anisotropic_mips/store_light.glsl"
+#include "07_anisotropic_mips/column_weight.glsl"
 #include "07_anisotropic_mips/occupied_levels.glsl"
 
 layout(local_size_x = 64) in;
 uniform int level;
 uniform uint begin;  // of the level's part of the list
 
-vec4 finer(int face, ivec3 voxel) { return stored_texel(atlas_texel(face, voxel, level - 1), level - 1); }
+vec4 finer(int face, ivec3 voxel) { return light_of(face, voxel, level - 1); }
 
 vec4 filtered(int face, ivec3 voxel)
 {

@@ -3,5 +3,6 @@ struct LevelCount {
     uint groups_x, groups_y, groups_z;  // indirect dispatch, 64 voxels a work group
     uint count;
 };
-layout(std430, binding = 12) buffer OccupiedBuffer { uint occupied[]; };  // packed voxels, level after level
-layout(std430, binding = 13) buffer LevelBuffer { LevelCount levels[]; };
+// Packed voxels, level after level.
+layout(std430, binding = kOccupiedBinding) buffer OccupiedBuffer { uint occupied[]; };
+layout(std430, binding = kLevelBinding) buffer LevelBuffer { LevelCount levels[]; };

@@ -4,8 +4,9 @@
 #include "07_anisotropic_mips/occupied_levels.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 7) readonly buffer FinerListBuffer { uint finer_list[]; };
-layout(std430, binding = 14) buffer ClaimedBuffer { uint claimed[]; };  // a bit for each voxel of the level
+layout(std430, binding = kVoxelListBinding) readonly buffer FinerListBuffer { uint finer_list[]; };
+// A bit for each voxel of the level.
+layout(std430, binding = kClaimedBinding) buffer ClaimedBuffer { uint claimed[]; };
 uniform int level;
 uniform uint finer_begin, begin;
 

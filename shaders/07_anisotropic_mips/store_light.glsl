@@ -1,5 +1,5 @@
 // Writing a texel of the pyramids in the format that they are kept in. FORMAT: 0 rgba16f, 1 rgba8, 2 r11g11b10f and r8.
-#include "common/pyramid.glsl"
+#include "07_anisotropic_mips/pyramid.glsl"
 
 #if FORMAT == 0
 layout(rgba16f, binding = 0) writeonly uniform image3D light;

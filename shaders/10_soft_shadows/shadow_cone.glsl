@@ -1,5 +1,5 @@
 // A cone to a light: which share of the light do the voxels leave visible? (After Villegas 2016, section 3.6.4.)
-#include "common/pyramid.glsl"
+#include "07_anisotropic_mips/pyramid.glsl"
 #include "common/light.glsl"
 #include "common/frame.glsl"
 
@@ -33,25 +33,20 @@ const float kGoldenAngle = 2.39996323;  // rad
 vec3 ramp(vec3 x, float from, float to) { return clamp((x - from) / (to - from), 0.0, 1.0); }
 
 // Coverage of the faces that look along -axis or +axis (`faces`: 0 or 1 for each axis) at a point given in texels.
-vec3 coverage_of(vec3 texel, vec3 size, vec3 faces, int level)
+vec3 coverage_of(vec3 texel, vec3 faces, int level)
 {
-    vec3 u = (texel.x / size.x + vec3(0.0, 2.0, 4.0) + faces) / 6.0;
-    vec2 vw = texel.yz / size.yz;
-    return vec3(stored_coverage(vec3(u.x, vw), float(level)),
-                stored_coverage(vec3(u.y, vw), float(level)),
-                stored_coverage(vec3(u.z, vw), float(level)));
+    ivec3 face = ivec3(0, 2, 4) + ivec3(faces);
+    return vec3(coverage_at(face.x, texel, level), coverage_at(face.y, texel, level), coverage_at(face.z, texel, level));
 }
 
 // The same, half a voxel before and half a voxel behind the point on the face's own axis, summed.
-vec3 column_of(vec3 texel, vec3 size, vec3 faces, int level)
+vec3 column_of(vec3 texel, vec3 faces, int level)
 {
-    vec3 u = (texel.x / size.x + vec3(0.0, 2.0, 4.0) + faces) / 6.0, half_texel = 0.5 / size;
-    vec2 vw = texel.yz / size.yz;
-    float l = float(level), x = half_texel.x / 6.0;
-    vec2 y = vec2(half_texel.y, 0.0), z = vec2(0.0, half_texel.z);
-    return vec3(stored_coverage(vec3(u.x - x, vw), l) + stored_coverage(vec3(u.x + x, vw), l),
-                stored_coverage(vec3(u.y, vw - y), l) + stored_coverage(vec3(u.y, vw + y), l),
-                stored_coverage(vec3(u.z, vw - z), l) + stored_coverage(vec3(u.z, vw + z), l));
+    ivec3 face = ivec3(0, 2, 4) + ivec3(faces);
+    vec3 x = vec3(0.5, 0.0, 0.0), y = vec3(0.0, 0.5, 0.0), z = vec3(0.0, 0.0, 0.5);
+    return vec3(coverage_at(face.x, texel - x, level) + coverage_at(face.x, texel + x, level),
+                coverage_at(face.y, texel - y, level) + coverage_at(face.y, texel + y, level),
+                coverage_at(face.z, texel - z, level) + coverage_at(face.z, texel + z, level));
 }
 
 // What a point of the ray's way tells of the surfaces there.
@@ -67,10 +62,10 @@ struct Stopped {
 Stopped stopped_at(vec3 position, vec3 direction, int level)
 {
     float voxel = float(1 << level);
-    vec3 p = position / voxel, size = vec3(level_size(level));
+    vec3 p = position / voxel;
     vec3 low = floor(grid.content_min.xyz / voxel) + 0.5, high = floor(grid.content_max.xyz / voxel) + 0.5;
     vec3 q = clamp(p, low, high), along = vec3(greaterThanEqual(direction, vec3(0.0)));
-    vec3 against = coverage_of(q, size, 1.0 - along, level), with_ray = coverage_of(q, size, along, level);
+    vec3 against = coverage_of(q, 1.0 - along, level), with_ray = coverage_of(q, along, level);
     // snippet: stopped
     // Beside the bounds the border is repeated; along a face's own axis what is outside is empty.
     vec3 inside = step(grid.content_min.xyz, position) * step(position, grid.content_max.xyz);
@@ -78,7 +73,7 @@ Stopped stopped_at(vec3 position, vec3 direction, int level)
     float net = dot(weight, against - with_ray), met = dot(weight, against);
     // A slanted wall is a staircase of voxels, and how long a ray stays in it varies. But the two voxels of a column
     // next to the point hold the whole of it: their sum is what it covers, where at least half of that is at the point.
-    vec3 column = column_of(q, size, 1.0 - along, level);
+    vec3 column = column_of(q, 1.0 - along, level);
     vec3 peak = ramp(against / max(column, vec3(1e-4)), kPeakFrom, kPeakTo) * step(vec3(1e-3), weight);
     vec3 wall = column * peak * ramp(vec3(net / max(met, 1e-4)), kFacingFrom, kFacingTo);
     return Stopped(max(net_faces ? net : met, 0.0), net_faces ? dot(weight, min(against, with_ray)) : 0.0,

@@ -3,7 +3,7 @@
 #include "common/g_buffer.glsl"
 #include "common/brdf.glsl"
 #include "common/light.glsl"
-#include "common/pyramid.glsl"
+#include "07_anisotropic_mips/pyramid.glsl"
 #if METHOD == 0
 #include "common/shadow_map.glsl"
 #elif METHOD == 1

@@ -1,12 +1,12 @@
 #version 450 core
 // What chapter 06 found visible, from the list of faces to a volume that pixels can sample, the six directions side by
 // side as in the pyramids. One thread an occupied face.
-#include "common/pyramid.glsl"
+#include "07_anisotropic_mips/pyramid.glsl"
 #include "common/voxel_counters.glsl"
 
 layout(local_size_x = 64) in;
-layout(std430, binding = 8) readonly buffer FaceListBuffer { uint face_list[]; };
-layout(std430, binding = 12) readonly buffer VisibilityBuffer { uint face_visibility[]; };
+layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
+layout(std430, binding = kVisibilityBinding) readonly buffer VisibilityBuffer { uint face_visibility[]; };
 layout(rgba8, binding = 0) writeonly uniform image3D visibility_volume;
 
 void main()

@@ -1,31 +1,82 @@
 #version 450 core
-// Half of a bounce: every occupied face gathers the light of the pyramid as pixels do, E / pi = sum_i W_i L_i(k - 1).
+// One bounce from voxel to voxel: every face reflects the mean of what the faces at the ends of its links reflect, and what
+// emitters and the sky send. One thread a face.
+// EMITTERS 1: some surface shines. FIRST, LAST 1: the first bounce of a run, the last one.
 #include "common/voxel_counters.glsl"
-#include "common/diffuse_gather.glsl"
-#if EMITTED
-#include "common/emitters.glsl"
+#include "12_second_bounce/links.glsl"
+
+layout(local_size_x = 256) in;
+layout(std430, binding = kRadianceBinding) readonly buffer DirectBuffer { vec4 direct[]; };          // reflected of direct light: R(0)
+layout(std430, binding = kLinkBinding) readonly buffer LinkBuffer { uint links[]; };
+layout(std430, binding = kFromEmittersBinding) readonly buffer EmittedBuffer { vec4 from_emitters[]; };  // E / pi
+layout(std430, binding = kAlbedoBinding) readonly buffer AlbedoBuffer { uint albedo[]; };
+layout(std430, binding = kRadianceBeforeBinding) readonly buffer BeforeBuffer { uvec2 before[]; };         // R(k - 1)
+#if LAST
+layout(std430, binding = kRadianceAfterBinding) writeonly buffer AfterBuffer { vec4 after[]; };   // R(k)
+#else
+layout(std430, binding = kRadianceAfterBinding) writeonly buffer AfterBuffer { uvec2 after[]; };  // R(k)
+#endif
+layout(std430, binding = kChangeBinding) buffer ChangeBuffer { uint largest_change, largest_radiance; };  // float bits, >= 0
+uniform int links_per_face;
+uniform vec3 sky_radiance;
+
+#if FIRST
+vec3 radiance_before(uint place) { return direct[place].rgb; }
+#else
+vec3 radiance_before(uint place) { return unpack_radiance(before[place]); }
 #endif
 
-layout(local_size_x = 64) in;
-layout(std430, binding = 8) readonly buffer FaceListBuffer { uint face_list[]; };
-layout(std430, binding = 10) readonly buffer FaceBuffer { VoxelFace faces[]; };
-layout(std430, binding = 12) writeonly buffer GatheredBuffer { vec4 gathered[]; };
+#if MEASURE
+shared float group_change[256], group_radiance[256];
+
+// The largest of the work group first: one atomic for all its faces. Floats that are not negative have the order of their
+// bits.
+void measure(vec3 change, vec3 radiance)
+{
+    uint i = gl_LocalInvocationIndex;
+    group_change[i] = max(change.r, max(change.g, change.b));
+    group_radiance[i] = max(radiance.r, max(radiance.g, radiance.b));
+    barrier();
+    for (uint half_count = 128u; half_count > 0u; half_count >>= 1) {
+        if (i < half_count) {
+            group_change[i] = max(group_change[i], group_change[i + half_count]);
+            group_radiance[i] = max(group_radiance[i], group_radiance[i + half_count]);
+        }
+        barrier();
+    }
+    if (i > 0u) return;
+    atomicMax(largest_change, floatBitsToUint(group_change[0]));
+    atomicMax(largest_radiance, floatBitsToUint(group_radiance[0]));
+}
+#endif
 
 void main()
 {
     uint place = gl_GlobalInvocationID.x;
-    if (place >= voxel_statistics.faces) return;
-    VoxelFace face = faces[place];
-    // snippet: gather_face
-    // In every 4 x 4 voxels of a wall each of the 16 sets of cones comes once.
-    ivec3 voxel = unpack_voxel(face_list[place]) & 3;
-    int axis = int(face_list[place] >> 27) >> 1;
-    int neighbour = voxel[(axis + 1) % 3] + 4 * voxel[(axis + 2) % 3];
-    vec3 normal = face.normal.xyz;
-    vec3 mean_radiance = gather_diffuse(face.position.xyz, normal, normal, neighbour).mean_radiance;
-#if EMITTED
-    mean_radiance += gather_emitters(face.position.xyz, normal, normal, neighbour);
+    vec3 change = vec3(0.0), radiance = vec3(0.0);
+    if (place < voxel_statistics.faces) {
+        // snippet: bounce
+        vec3 sum = vec3(0.0);
+        for (int i = 0; i < links_per_face; ++i) {
+            uint link = links[place * uint(links_per_face) + uint(i)];
+            sum += link < kSkyLink ? radiance_before(link) : link == kSkyLink ? sky_radiance : vec3(0.0);
+        }
+        vec3 gathered = sum / float(links_per_face);
+#if EMITTERS
+        gathered += from_emitters[place].rgb;
 #endif
-    gathered[place] = vec4(mean_radiance, 0.0);
-    // end snippet
+        radiance = direct[place].rgb + unpack_albedo(albedo[place]) * gathered;
+        // end snippet
+#if MEASURE
+        change = abs(radiance - radiance_before(place));
+#endif
+#if LAST
+        after[place] = vec4(radiance, direct[place].a);
+#else
+        after[place] = pack_radiance(radiance);
+#endif
+    }
+#if MEASURE
+    measure(change, radiance);
+#endif
 }

@@ -1,19 +1,16 @@
 // The ray through the middle of a pixel, in scene space.
-#include "common/scene_structs.glsl"
-
-layout(std140, binding = 0) uniform CameraBlock { CameraData camera; };
+#include "common/camera.glsl"
 
 struct Ray {
     vec3 origin;
     vec3 direction;  // unit
 };
 
+// Through two points next to the scene: from an eye 100 km away the ray would wander by centimetres. It begins in front of
+// the near plane where the camera's own lets it, because voxels are thicker than the surfaces in them.
 Ray camera_ray(vec2 pixel_center)
 {
     vec2 ndc = 2.0 * pixel_center * camera.size.zw - 1.0;
-    vec4 near_point = camera.scene_from_clip * vec4(ndc, 1.0, 1.0);  // reversed depth: 1 is near
-    vec3 near_position = near_point.xyz / near_point.w;
-    bool perspective = camera.position.w > 0.5;
-    vec3 origin = perspective ? camera.position.xyz : near_position;
-    return Ray(origin, perspective ? normalize(near_position - camera.position.xyz) : camera.forward.xyz);
+    vec3 near_point = unproject(ndc, 1.0), direction = normalize(unproject(ndc, 0.0) - near_point);
+    return Ray(near_point - camera.forward.w / dot(direction, camera.forward.xyz) * direction, direction);
 }

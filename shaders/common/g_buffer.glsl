@@ -31,17 +31,9 @@ struct GBufferSample {
 // Scene space position of a point of the picture: pixel centre (x, y) + 0.5 and its depth value.
 vec3 position_from_depth(vec2 pixel, float depth)
 {
-    vec4 clip = vec4(2.0 * pixel * camera.size.zw - 1.0, depth, 1.0);  // depth is 0..1 in clip space as well
-    vec4 scene = camera.scene_from_clip * clip;
-    return scene.xyz / scene.w;
+    return unproject(2.0 * pixel * camera.size.zw - 1.0, depth);  // depth is 0..1 in clip space as well
 }
 // end snippet
-
-// Unit vector from a point to the eye.
-vec3 view_direction(vec3 position)
-{
-    return camera.position.w > 0.5 ? normalize(camera.position.xyz - position) : -camera.forward.xyz;
-}
 
 GBufferSample read_g_buffer(ivec2 pixel)
 {
@@ -53,7 +45,7 @@ GBufferSample read_g_buffer(ivec2 pixel)
         return GBufferSample(false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, vec3(0.0), 0.0,
                              vec3(0.0), 0.0);
     s.position = position_from_depth(vec2(pixel) + 0.5, depth);
-    s.depth = -(camera.view_from_scene * vec4(s.position, 1.0)).z;
+    s.depth = axial_distance(s.position);
     s.normal = octahedral_decode(texelFetch(g_normal, pixel, 0).rg);
     s.geometric_normal = octahedral_decode(texelFetch(g_geometric_normal, pixel, 0).rg);
     vec4 base = texelFetch(g_base_color_metallic, pixel, 0);

@@ -46,11 +46,11 @@ struct LightData {
 };
 
 struct CameraData {
-    mat4 clip_from_scene;   // reversed depth: 1 at the near plane, 0 at infinity
+    mat4 clip_from_scene;   // reversed depth: 1 at the near plane, 0 at the far one, both as near to the scene as can be
     mat4 scene_from_clip;
-    mat4 view_from_scene;
-    vec4 position;          // xyz: scene space, perspective cameras; w: 1 perspective, 0 orthographic
-    vec4 forward;           // xyz: unit, where the camera looks; w unused
+    vec4 position;          // xyz: scene space; w: 1 perspective, 0 orthographic
+    vec4 forward;           // xyz: unit, where the camera looks; w: m of free way in front of that near plane that rays
+                            // may use as well, at most the diagonal of the scene
     vec4 size;              // xy: picture in pixels, zw: 1 / xy
 };
 

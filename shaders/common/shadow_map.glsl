@@ -1,9 +1,10 @@
 // Visibility of a light by its shadow map: taught in chapter 03, used wherever direct light is computed.
+#include "common/bindings.glsl"
 #include "common/shadow_structs.glsl"
 #include "common/scene_structs.glsl"
 
-layout(std430, binding = 4) readonly buffer ShadowLayerBuffer { ShadowLayer shadow_layers[]; };
-layout(std430, binding = 14) readonly buffer ShadowLightBuffer { ShadowLight shadow_lights[]; };
+layout(std430, binding = kShadowLayerBinding) readonly buffer ShadowLayerBuffer { ShadowLayer shadow_layers[]; };
+layout(std430, binding = kShadowLightBinding) readonly buffer ShadowLightBuffer { ShadowLight shadow_lights[]; };
 layout(binding = kShadowMapUnit) uniform sampler2DArray shadow_maps;
 uniform float shadow_bias_texels;    // how far the point moves along its normal, in widths of a texel
 uniform int shadow_receiver_plane;   // 1: compare with the receiver's plane; 0: with the point's depth alone, the acne

@@ -17,11 +17,6 @@ struct Surface {
     SurfaceMaterial material;
 };
 
-vec3 direction_to_eye(vec3 position)
-{
-    return camera.position.w > 0.5 ? normalize(camera.position.xyz - position) : -camera.forward.xyz;
-}
-
 // snippet: surface_normal
 vec3 mapped_normal(MaterialData m)
 {
@@ -53,7 +48,7 @@ Surface read_surface()
     MaterialData m = drawn_material;
     Surface s;
     s.position = vertex_position;
-    s.view = direction_to_eye(vertex_position);
+    s.view = view_direction(vertex_position);
     s.normal = mapped_normal(m);
     s.geometric_normal = facet_normal(s.view, s.normal);
     vec3 specular_color;

@@ -1,7 +1,8 @@
 // The grid of this frame.
+#include "common/bindings.glsl"
 #include "common/voxel_structs.glsl"
 
-layout(std140, binding = 1) uniform GridBlock { GridData grid; };
+layout(std140, binding = kGridBlock) uniform GridBlock { GridData grid; };
 
 vec3 grid_from_scene(vec3 position) { return (position - grid.origin.xyz) / grid.origin.w; }
 vec3 scene_from_grid(vec3 position_grid) { return position_grid * grid.origin.w + grid.origin.xyz; }

@@ -22,6 +22,10 @@ CONEBOOK_CONSTANT int kFaceIndexUnit = 23;
 CONEBOOK_CONSTANT int kPackedColorUnit = 24;
 CONEBOOK_CONSTANT int kDirectionVolumeUnit = 24;  // six units
 CONEBOOK_CONSTANT int kEmissionAtlasUnit = 30;
+CONEBOOK_CONSTANT int kWalkVolumeUnit = 31;
+
+// Whole coverage in the walk volume, in its units: five bits, and one half is a whole number.
+CONEBOOK_CONSTANT float kWalkUnits = 30.0;
 
 // Face directions: 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z. A triangle belongs to the face that its normal is nearest to.
 CONEBOOK_CONSTANT int kFaceCount = 6;
@@ -34,11 +38,22 @@ struct VoxelFace {
     vec4 position;     // xyz: centroid in grid space
 };
 
-// A part of the emitting surfaces, that cones are aimed at.
+// A part of the emitting surfaces, that rays are aimed at.
 struct EmitterPart {
     vec4 position;   // xyz: grid space; w: radius of a disc of the part's area, voxels, squared
-    vec4 normal;     // xyz: unit
+    vec4 normal;     // xyz: unit; w: as bits, the directions in which something lies within its blur
     vec4 intensity;  // rgb: radiance times area, W/(sr m^2) x voxel sides squared
+};
+
+// Height above an emitter, in voxels, in which its own blur and that of what it hangs on would hide it: there rays against
+// the triangles themselves have been asked, in bands of equal solid angle from the horizon up, each in so many sectors.
+CONEBOOK_CONSTANT float kEmitterBlur = 1.5;
+CONEBOOK_CONSTANT int kMaskBands = 4;
+CONEBOOK_CONSTANT int kMaskSectors = 8;
+
+// An emitting triangle of even radiance, in grid space; its front winds counter-clockwise.
+struct EmitterTriangle {
+    vec4 a, b, c;  // xyz: corners; w: radiance, red, green and blue, W/(sr m^2)
 };
 
 // Sums of one face as 64-bit fixed point numbers: word i is the low half of sum i, word kSumCount + i its high half,

@@ -138,7 +138,9 @@ TEST_P(Program, GivesTheSamePictureFromAnotherFolderAndAfterMoreFrames)
     EXPECT_EQ(relative.code, 0) << relative.output;
     std::filesystem::current_path(before);
     EXPECT_EQ(read_png(elsewhere / "relative.png").rgba, here.rgba);
-    EXPECT_EQ(picture("--frames 3").rgba, here.rgba);
+    // Where frames add up to a better picture, each alone is the first one.
+    const bool accumulates = run_program(GetParam(), "--list-params").output.find("accumulate ") != std::string::npos;
+    EXPECT_EQ(picture(accumulates ? "--frames 3 --set accumulate=off" : "--frames 3").rgba, here.rgba);
 }
 
 // A copy of shaders/ and assets/ with a fault planted in `file`; $CONEBOOK_ROOT names it while this object lives.

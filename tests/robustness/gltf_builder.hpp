@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include <stb/stb_image_write.h>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
+#include "image/codecs.hpp"
 #include "scene/scene.hpp"
 #include "temporary_folder.hpp"
 
@@ -31,10 +31,11 @@ inline std::filesystem::path write_file(const std::filesystem::path& file, const
 
 enum Component { s8 = 5120, u8 = 5121, s16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-// A glTF file: `json` may be edited at will, `binary` is its only buffer.
+// A glTF file: `root` may be edited at will, `binary` is its first buffer.
 struct GltfBuilder {
     nlohmann::json root = {{"asset", {{"version", "2.0"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
     std::string binary;
+    nlohmann::json other_buffers = nlohmann::json::array();
 
     int append(const char* list, nlohmann::json element)
     {
@@ -74,13 +75,8 @@ struct GltfBuilder {
     int add_node(nlohmann::json node) { return append("nodes", std::move(node)); }
     static std::string png(const std::vector<std::uint8_t>& rgba, int width, int height)
     {
-        std::string bytes;
-        stbi_write_png_to_func(
-            [](void* out, void* data, int size) {
-                static_cast<std::string*>(out)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
-            },
-            &bytes, width, height, 4, rgba.data(), width * 4);
-        return bytes;
+        const std::vector<std::uint8_t> bytes = encode_png({width, height, rgba});
+        return {bytes.begin(), bytes.end()};
     }
     // A texture with its own PNG image in the buffer. RGBA, width x height.
     int add_texture(const std::vector<std::uint8_t>& rgba, int width, int height)
@@ -94,6 +90,7 @@ struct GltfBuilder {
     {
         nlohmann::json with_buffer = root;
         if (!binary.empty()) with_buffer["buffers"] = {{{"byteLength", binary.size()}}};
+        for (const nlohmann::json& buffer : other_buffers) with_buffer["buffers"].push_back(buffer);
         std::string text = with_buffer.dump(), data = binary;
         text.resize((text.size() + 3) / 4 * 4, ' ');
         data.resize((data.size() + 3) / 4 * 4, '\0');

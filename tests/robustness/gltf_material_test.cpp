@@ -169,6 +169,32 @@ TEST(GltfTextures, PixelsSamplersAndSharedImages)
     EXPECT_FALSE(m.normal_texture.present());
 }
 
+// 16384 texels are the most that every driver takes. Black and white in turn: half of the light, which is 188 in sRGB.
+TEST(GltfTextures, WiderImagesThanATextureMayBeAreShrunkAndSaidSo)
+{
+    for (const bool upright : {false, true}) {
+        const int side = 2 * 16384, width = upright ? 1 : side, height = upright ? side : 1;
+        std::vector<std::uint8_t> rgba;
+        for (int i = 0; i < side; ++i) rgba.insert(rgba.end(), {std::uint8_t(i % 2 * 255), 0, 255, 255});
+        GltfBuilder gltf = triangle_with_material(json::object());
+        const int color = gltf.add_texture(rgba, width, height), normal = gltf.add_texture(rgba, width, height);
+        gltf.root["images"][0]["name"] = "ribbon";
+        gltf.root["materials"][0] = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", color}}}}},
+                                     {"normalTexture", {{"index", normal}}}};
+        const Scene scene = gltf.load();
+        ASSERT_EQ(scene.images.size(), 2u);
+        EXPECT_EQ(scene_fault(scene), "");
+        EXPECT_EQ(scene.images[0].width, upright ? 1 : 16384);
+        EXPECT_EQ(scene.images[0].height, upright ? 16384 : 1);
+        for (std::size_t i = 0; i < 16384; ++i) {
+            ASSERT_EQ(scene.images[0].rgba[4 * i], 188);
+            ASSERT_EQ(scene.images[1].rgba[4 * i], 128);
+        }
+        EXPECT_TRUE(
+            has_warning(scene, "images[0] 'ribbon' has " + std::to_string(width) + "x" + std::to_string(height)));
+    }
+}
+
 TEST(GltfTextures, TwoUvSetsAreMappedAndAThirdIsDropped)
 {
     GltfBuilder gltf = triangle_with_material(json::object());
@@ -325,14 +351,10 @@ TEST(GltfCameras, FramingHoldsTheWholeSceneWhateverItsShape)
         const glm::mat4 camera_from_world = glm::inverse(camera.world_from_camera);
         float widest = 0.0f;
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec3 position(corner & 1 ? scene.bounds.max.x : scene.bounds.min.x,
-                                     corner & 2 ? scene.bounds.max.y : scene.bounds.min.y,
-                                     corner & 4 ? scene.bounds.max.z : scene.bounds.min.z);
-            const glm::vec3 seen(camera_from_world * glm::vec4(position, 1.0f));
+            const glm::vec3 seen(camera_from_world * glm::vec4(scene.bounds.corner(corner), 1.0f));
             const float half = -seen.z * std::tan(0.5f * camera.y_fov);
             widest = std::max({widest, std::abs(seen.x) / half, std::abs(seen.y) / half});
             EXPECT_GT(-seen.z, camera.z_near);
-            EXPECT_LT(-seen.z, camera.z_far);
         }
         EXPECT_LT(widest, 1.0f);
         EXPECT_GT(widest, 0.3f) << "the scene is lost in the picture";

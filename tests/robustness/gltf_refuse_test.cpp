@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <functional>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
+#include "png_builder.hpp"
 #include "robustness/gltf_builder.hpp"
 
 namespace conebook::test {
@@ -27,16 +29,30 @@ json texture_of(GltfBuilder& gltf, const json& image)
     return image;
 }
 
-std::string big_endian(std::uint32_t value)
-{
-    return {static_cast<char>(value >> 24), static_cast<char>(value >> 16), static_cast<char>(value >> 8),
-            static_cast<char>(value)};
-}
-
 std::string png_header(std::uint32_t width, std::uint32_t height)
 {
-    return std::string("\x89PNG\r\n\x1a\n", 8) + std::string("\0\0\0\x0dIHDR", 8) + big_endian(width) +
-           big_endian(height) + std::string("\x08\x06\0\0\0", 5) + "crc!" + std::string("\0\0\0\0IDAT", 8);
+    PngBuilder png;
+    png.width = width;
+    png.height = height;
+    return png.header() + std::string("\0\0\0\0IDAT", 8);
+}
+
+void compress_by_draco(GltfBuilder& gltf)
+{
+    gltf.root["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+    primitive(gltf)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
+                                                                   {"attributes", {{"POSITION", 0}}}};
+}
+
+// bufferViews[0] is compressed; the buffer that it stands for has no bytes.
+void compress_by_meshopt(GltfBuilder& gltf, const std::string& extension)
+{
+    gltf.root["extensionsUsed"] = {extension};
+    gltf.other_buffers.push_back({{"byteLength", 36}, {"extensions", {{extension, {{"fallback", true}}}}}});
+    json& view = gltf.root["bufferViews"][0];
+    view["extensions"][extension] = {{"buffer", 0},      {"byteOffset", 0},      {"byteLength", 36},
+                                     {"byteStride", 12}, {"mode", "ATTRIBUTES"}, {"count", 3}};
+    view["buffer"] = 1;
 }
 
 const std::vector<Fault> faults = {
@@ -202,7 +218,7 @@ const std::vector<Fault> faults = {
     {"absurd_image",
      [](GltfBuilder& g) {
          // Padded until the pixels alone are the fault, not their number per byte.
-         texture_of(g, {{"bufferView", g.add_view(png_header(12000, 12000) + std::string(20'000, '\0'))}});
+         texture_of(g, {{"bufferView", g.add_view(png_header(12000, 12000) + std::string(600'000, '\0'))}});
      },
      "12000x12000"},
     {"cut_image",
@@ -223,6 +239,41 @@ const std::vector<Fault> faults = {
          g.root["extensionsRequired"] = {"KHR_texture_basisu", "KHR_texture_transform", "EXT_meshopt_compression"};
      },
      "KHR_texture_basisu, EXT_meshopt_compression"},
+    {"draco_without_fallback",
+     [](GltfBuilder& g) {
+         g.root["accessors"][0].erase("bufferView");
+         compress_by_draco(g);
+     },
+     "POSITION is compressed by KHR_draco_mesh_compression"},
+    {"draco_below_sparse_values",
+     [](GltfBuilder& g) {
+         g.root["accessors"][0].erase("bufferView");
+         g.root["accessors"][0]["sparse"] = {
+             {"count", 1}, {"indices", {{"bufferView", 0}, {"componentType", u8}}}, {"values", {{"bufferView", 0}}}};
+         compress_by_draco(g);
+     },
+     "POSITION is compressed by KHR_draco_mesh_compression"},
+    {"draco_indices",
+     [](GltfBuilder& g) {
+         primitive(g)["indices"] = g.add_accessor<std::uint16_t>({0, 1, 2}, u16, "SCALAR");
+         g.root["accessors"][1].erase("bufferView");
+         compress_by_draco(g);
+     },
+     "indices is compressed by KHR_draco_mesh_compression"},
+    {"meshopt_without_fallback", [](GltfBuilder& g) { compress_by_meshopt(g, "EXT_meshopt_compression"); },
+     "POSITION is compressed by EXT_meshopt_compression"},
+    {"meshopt_of_khronos", [](GltfBuilder& g) { compress_by_meshopt(g, "KHR_meshopt_compression"); },
+     "POSITION is compressed by KHR_meshopt_compression"},
+    {"meshopt_sparse_values",
+     [](GltfBuilder& g) {
+         const int view = g.add_view(std::string(12, '\0'));
+         compress_by_meshopt(g, "EXT_meshopt_compression");
+         // Of the accessor, only the sparse values are compressed.
+         g.root["accessors"][0]["bufferView"] = view;
+         g.root["accessors"][0]["sparse"] = {
+             {"count", 1}, {"indices", {{"bufferView", view}, {"componentType", u8}}}, {"values", {{"bufferView", 0}}}};
+     },
+     "POSITION is compressed by EXT_meshopt_compression"},
     {"version_3", [](GltfBuilder& g) { g.root["asset"]["version"] = "3.0"; }, "version '3.0'"},
     {"no_asset", [](GltfBuilder& g) { g.root.erase("asset"); }, "asset is missing"},
     {"number_too_large_for_float",
@@ -270,6 +321,64 @@ TEST(GltfRefuseFile, WhatIsNoFileAtAll)
     ASSERT_EQ(mkfifo((folder.path() / "pipe.bin").c_str(), 0600), 0);
     const std::string gltf = R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"pipe.bin"}]})";
     EXPECT_NE(refusal(write_file(folder.path() / "pipe.gltf", gltf)).find("not a regular file"), std::string::npos);
+}
+
+// Compression is no fault where the file has the data without it too.
+TEST(GltfRefuseFile, CompressionWithAFallbackIsIgnored)
+{
+    GltfBuilder draco = one_triangle();
+    compress_by_draco(draco);
+    EXPECT_EQ(scene_fault(draco.load()), "");
+    EXPECT_TRUE(has_warning(draco.load(), "KHR_draco_mesh_compression is ignored"));
+
+    // Zeros that no stream fills: the extension lists POSITION alone.
+    GltfBuilder zeros = one_triangle();
+    compress_by_draco(zeros);
+    const int color = zeros.add_accessor<std::uint8_t>(std::vector<std::uint8_t>(16, 0), u8, "VEC4", true);
+    zeros.root["accessors"][color].erase("bufferView");
+    zeros.root["accessors"][color]["count"] = 3;
+    zeros.root["accessors"][color]["sparse"] = {
+        {"count", 1}, {"indices", {{"bufferView", color}, {"componentType", u8}}}, {"values", {{"bufferView", color}}}};
+    primitive(zeros)["attributes"]["COLOR_0"] = color;
+    EXPECT_EQ(scene_fault(zeros.load()), "");
+
+    GltfBuilder meshopt = one_triangle();
+    compress_by_meshopt(meshopt, "EXT_meshopt_compression");
+    const GltfBuilder plain = one_triangle();
+    const std::string positions =
+        "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";  // one_triangle's positions
+    meshopt.other_buffers[0]["uri"] = positions;
+    EXPECT_EQ(meshopt.load().vertices.at(1).position, plain.load().vertices.at(1).position);
+
+    // What nothing uses may lie in a buffer without bytes.
+    GltfBuilder unused = one_triangle();
+    compress_by_meshopt(unused, "EXT_meshopt_compression");
+    primitive(unused)["attributes"]["POSITION"] = unused.add_floats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3);
+    EXPECT_EQ(scene_fault(unused.load()), "");
+}
+
+// Every way in which an image may be in a file; what damage is found is tests/codecs_test.cpp's.
+TEST(GltfRefuseFile, ADamagedImageIsNamed)
+{
+    const TemporaryFolder folder;
+    std::string png = GltfBuilder::png(std::vector<std::uint8_t>(16 * 16 * 4, 7), 16, 16);
+    png[png.size() - 20] = static_cast<char>(png[png.size() - 20] ^ 1);
+    write_file(folder / "wood.png", png);
+    for (const auto& [name, uri, expected] : {std::tuple("", "wood.png", "images[0] 'wood.png' is damaged: "),
+                                              {"bark", "wood.png", "images[0] 'bark' is damaged: "},
+                                              {"bark", "", "images[0] 'bark' is damaged: "}}) {
+        GltfBuilder gltf = one_triangle();
+        json image = json::object();
+        if (*name) image["name"] = name;
+        if (*uri) {
+            image["uri"] = uri;
+        } else {
+            image["bufferView"] = gltf.add_view(png);
+        }
+        texture_of(gltf, image);
+        const std::string error = refusal(write_file(folder / "test.glb", gltf.glb()));
+        EXPECT_NE(error.find(std::string("test.glb: ") + expected), std::string::npos) << error;
+    }
 }
 
 TEST(GltfRefuseFile, InstancingIsBounded)

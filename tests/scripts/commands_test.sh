@@ -128,6 +128,9 @@ fake python3 'case "$*" in *--targets*) echo 07_first compare ;; esac'
 call -- run numbers 07
 check_has "numbers builds what it measures" '^ninja .* 07_first compare$' "$log"
 check_has "numbers" "^python3 $repository/tools/page_numbers.py --bin $repository/build/bin --measure 07\$" "$log"
+call -- run bench --quick --no-figures
+check_has "bench builds what it measures" '^ninja .* 14_speed_against_error bench_fetch$' "$log"
+check_has "bench" "^python3 $repository/tools/bench.py --quick --no-figures\$" "$log"
 rm "$work/fakes/python3"
 call -- run 07 --set bad=1
 check "the program's code" 3 "$code"

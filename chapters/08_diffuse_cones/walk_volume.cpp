@@ -1,0 +1,70 @@
+#include "08_diffuse_cones/walk_volume.hpp"
+
+#include <algorithm>
+
+namespace conebook {
+
+namespace {
+
+// As in shaders/08_diffuse_cones/walk_bits.glsl.
+constexpr int kPadding = 64, kLevels = 7;
+
+std::size_t product(const glm::ivec3& v) { return std::size_t(v.x) * std::size_t(v.y) * std::size_t(v.z); }
+
+}  // namespace
+
+WalkVolume::WalkVolume(gl::Shaders& shaders)
+    : mark_(shaders.load({"08_diffuse_cones/walk_mark.comp"})),
+      double_(shaders.load({"08_diffuse_cones/walk_double.comp"})),
+      leaps_(shaders.load({"08_diffuse_cones/walk_leaps.comp"})),
+      coverage_(shaders.load({"08_diffuse_cones/walk_coverage.comp"}))
+{
+}
+
+bool WalkVolume::run(const VoxelGrid& grid, const VoxelFaces& faces)
+{
+    if (!made_from_.differs(faces.revision())) return false;
+    ++revision_;
+    const glm::ivec3 size = grid.size() + 1;
+    const glm::ivec3 rows((size.x + kPadding + 31) / 32, size.y + kPadding, size.z + kPadding);
+    if (volume_.size() != size) volume_ = gl::texture_3d("walk volume", GL_R32UI, size);
+    const gl::Buffer bits("walk bits", kLevels * product(rows) * sizeof(GLuint));
+    // No voxel has more than eight cells round its corners.
+    const std::size_t most_cells = std::min(8 * faces.voxel_count(), product(size));
+    const gl::Buffer cells("occupied cells", (1 + most_cells) * sizeof(GLuint));
+    grid.bind();
+    faces.bind();
+    bits.bind(GL_SHADER_STORAGE_BUFFER, shared::kWalkBitBinding);
+    cells.bind(GL_SHADER_STORAGE_BUFFER, shared::kWalkCellBinding);
+    volume_.bind_image(0, 0, GL_WRITE_ONLY);
+
+    // A bit for every cell that holds something.
+    mark_.use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.voxel_groups().id());
+    glDispatchComputeIndirect(0);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+
+    // Cubes of twice the side, six times.
+    double_.use();
+    for (int level = 0; level + 1 < kLevels; ++level) {
+        double_.set("level", level);
+        glDispatchCompute(gl::group_count(product(rows), 64), 1, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+
+    // Empty cells: how far to leap. The others: a list.
+    leaps_.use();
+    glDispatchCompute(gl::group_count(product({(size.x + 31) / 32, size.y, size.z}), 64), 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+
+    // Of each in the list, what it covers.
+    occupied_cells_ = cells.read_at<GLuint>(0);
+    coverage_.use();
+    const GLuint groups = gl::group_count(occupied_cells_, 64);
+    constexpr GLuint kMostGroups = 65535;  // along an axis, the least that OpenGL 4.5 promises (table 23.66)
+    if (groups > 0) glDispatchCompute(std::min(groups, kMostGroups), gl::group_count(groups, kMostGroups), 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    return true;
+}
+
+}  // namespace conebook

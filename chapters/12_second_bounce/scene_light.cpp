@@ -1,0 +1,81 @@
+#include "12_second_bounce/scene_light.hpp"
+
+#include "app/needs.hpp"
+
+namespace conebook {
+
+void add_parameters(ParameterTable& table, SceneLightParams& params)
+{
+    add_parameters(table, params.voxels);
+    add_parameters(table, params.bounces);
+    add_parameters(table, params.emitters);
+    add_parameters(table, params.shadow_maps);
+}
+
+SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params)
+    : params_(params),
+      shadow_maps_(shaders, scene, params.shadow_maps),
+      voxels_(shaders, scene, params.voxels),
+      walk_volume_(shaders),
+      emitters_(shaders, source, voxels_.grid(), params.emitters),
+      bounces_(shaders)
+{
+}
+
+void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, bool ask_maps)
+{
+    if (params_.voxels.update == int(Update::always)) shadow_maps_.forget();
+    // What the lights see, if pixels or voxels ask.
+    if (ask_maps || params_.voxels.shading.voxel_shadows == int(VoxelShadows::map))
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps_.draw(scene); });
+
+    // Triangles -> voxels -> what their faces reflect of direct light.
+    voxels_.shade(app, scene, shadow_maps_);
+
+    // Where rays may leap, and what shines.
+    app.pass("walk volume", Scope::scene, [&] { return walk_volume_.run(voxels_.grid(), voxels_.faces()); });
+    app.pass("emitters", Scope::scene,
+             [&] { return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading()); });
+
+    // Faces light faces, along links that stay.
+    const bool many = params_.bounces.bounces < 0 || params_.bounces.bounces > 1;
+    if (many) {
+        app.pass("links", Scope::scene,
+                 [&] { return bounces_.link(voxels_, walk_volume_, emitters_, cones, params_.bounces); });
+        app.pass("further bounces", Scope::light, [&] { return bounces_.run(voxels_, cones, params_.bounces); });
+    }
+
+    // Faces -> pyramids, for the cones of the pixels.
+    if (many)
+        voxels_.filter(app, bounces_.reflected(), bounces_.revision(), emitters_.part_of_voxels());
+    else
+        voxels_.filter(app, emitters_.part_of_voxels());
+}
+
+std::vector<gl::Resource> SceneLight::resources() const
+{
+    std::vector<gl::Resource> all = shadow_maps_.resources();
+    for (const auto& part :
+         {voxels_.resources(), walk_volume_.resources(), emitters_.resources(), bounces_.resources()})
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+std::vector<Need> SceneLight::needs(const Scene& source, const GpuScene& scene) const
+{
+    std::vector<Need> all = voxel_material_needs(scene);
+    for (const Need& need : shadow_maps_.needs(scene)) all.push_back(need);
+    all.push_back(light_need(source));
+    all.push_back(emitters_.need());
+    all.push_back({"further bounces", bounces_.count() > 0, "bounces=" + std::to_string(params_.bounces.bounces)});
+    return all;
+}
+
+std::vector<Count> SceneLight::counts() const
+{
+    std::vector<Count> all = voxels_.counts();
+    all.push_back({"bounces from voxel to voxel", double(bounces_.count()), ""});
+    return all;
+}
+
+}  // namespace conebook

@@ -1,0 +1,49 @@
+// What does not depend on the camera, chapters 03 to 08, 11 and 12 in order: lights and triangles -> voxels -> all bounces of
+// their light -> pyramids. Each pass runs when something that its result depends on has changed.
+#pragma once
+
+#include "10_soft_shadows/soft_shadows.hpp"
+#include "12_second_bounce/bounces.hpp"
+
+namespace conebook {
+
+struct SceneLightParams {
+    LitVoxelParams voxels;
+    ShadowMapParams shadow_maps;
+    EmitterParams emitters;
+    BounceParams bounces;
+};
+void add_parameters(ParameterTable& table, SceneLightParams& params);
+
+class SceneLight {
+public:
+    // `shaders` and `params` must outlive this.
+    SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params);
+
+    // `ask_maps`: pixels look into the shadow maps, too.
+    void run(App& app, const GpuScene& scene, const ConeParams& cones, bool ask_maps);
+
+    const LitVoxels& voxels() const { return voxels_; }
+    const ShadowMaps& shadow_maps() const { return shadow_maps_; }
+    const Emitters& emitters() const { return emitters_; }
+    const Bounces& bounces() const { return bounces_; }
+    ConeVolumes volumes() const { return {voxels_.grid(), voxels_.pyramid(), walk_volume_}; }
+    // Changes whenever the light in the voxels does.
+    Revision revision() const { return voxels_.pyramid().revision(); }
+    // Whether anything but lamps and what shines is to be seen.
+    bool has_indirect() const { return params_.bounces.bounces != 0; }
+
+    std::vector<gl::Resource> resources() const;
+    std::vector<Need> needs(const Scene& source, const GpuScene& scene) const;
+    std::vector<Count> counts() const;
+
+private:
+    const SceneLightParams& params_;
+    ShadowMaps shadow_maps_;
+    LitVoxels voxels_;
+    WalkVolume walk_volume_;
+    Emitters emitters_;
+    Bounces bounces_;
+};
+
+}  // namespace conebook

@@ -1,0 +1,14 @@
+// Pictures made smaller on the CPU.
+#pragma once
+
+#include "image/image.hpp"
+
+namespace conebook {
+
+enum class Encoding { linear, srgb };  // of R, G and B; alpha is always linear
+
+// `image` with width x height pixels, 1 to its own: each is the mean over its area of the image (a box filter). sRGB
+// is averaged in linear light.
+Image8 shrink(const Image8& image, int width, int height, Encoding encoding);
+
+}  // namespace conebook
