@@ -352,7 +352,7 @@ class MeasuredNumbers(Repository):
         (self.root / f"build/bin/{name}").chmod(0o755)
 
     def measure(self, *names):
-        result = subprocess.run([sys.executable, TOOLS / "page_numbers.py", "--root", self.root, "--measure", *names],
+        result = subprocess.run([sys.executable, TOOLS / "page_numbers.py", "--root", self.root, "--measure", *(("--only", *names) if names else ())],
                                 capture_output=True, text=True)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 
@@ -389,14 +389,14 @@ class MeasuredNumbers(Repository):
 
     def test_a_run_that_no_page_asks_for_is_found(self):
         self.edit("docs/data/numbers.txt", "01_a:", "01_c: 01\n01_a:")
-        result = subprocess.run([sys.executable, TOOLS / "page_numbers.py", "--root", self.root, "--measure", "01_c"],
+        result = subprocess.run([sys.executable, TOOLS / "page_numbers.py", "--root", self.root, "--measure", "--only", "01_c"],
                                 capture_output=True, text=True)
         self.assertEqual(result.returncode, 1)
         self.fails("docs/data/numbers.txt: no page asks for 01_c", *self.CHECK)
 
     def test_an_edit_must_find_its_place(self):
         self.edit("docs/data/numbers.txt", "float s = 1;", "float s = 9;")
-        result = subprocess.run([sys.executable, TOOLS / "page_numbers.py", "--root", self.root, "--measure", "01_edited"],
+        result = subprocess.run([sys.executable, TOOLS / "page_numbers.py", "--root", self.root, "--measure", "--only", "01_edited"],
                                 capture_output=True, text=True)
         self.assertEqual(result.returncode, 2)
         self.assertIn("shaders/a.comp holds 'float s = 9;' 0 times, not once", result.stderr)

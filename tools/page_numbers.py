@@ -3,7 +3,7 @@
 
   ./run numbers                      measures everything that docs/data/numbers.txt lists, into docs/data/numbers.json,
                                      and writes the numbers into the pages
-  ./run numbers 07 '10_*' 13_box     only runs of these pages, patterns or names
+  ./run numbers --only 07 '10_*' 13_box     only runs of these pages, patterns or names, and those that they compare
   tools/page_numbers.py --write      only writes into the pages what was measured before
   tools/page_numbers.py --check      code 1 and one line for each number that is not what was measured
 
@@ -86,11 +86,19 @@ class Bench:
             raise ValueError(f"{name}: there is no chapter {word}")
         return found
 
+    def compared(self, word):
+        """The run whose picture the word means: NAME, or NAME:PART of a reference that writes its parts; or None."""
+        name = word.partition(":")[0]
+        return name if name in self.runs else None
+
+    def picture(self, word):
+        return self.pictures / f"{word.replace(':', '_')}.exr"
+
     def with_needs(self, names):
         """The names, each after those whose pictures it compares."""
         ordered = []
         for name in names:
-            needs = [word for word in self.runs[name][1:] if word in self.runs]
+            needs = [self.compared(word) for word in self.runs[name][1:] if self.compared(word)]
             ordered += [n for n in [*self.with_needs(needs), name] if n not in ordered]
         return ordered
 
@@ -101,14 +109,16 @@ class Bench:
     def arguments(self, name, file):
         """The command line. What the program tells goes to `file`, if it tells it to a file."""
         kind, rest = self.kind(name)
-        picture = self.pictures / f"{name}.exr"
-        rest = [str(self.pictures / f"{w}.exr") if w in self.runs else w.replace("{shared}", str(self.shared))
-                for w in rest]
+        picture = self.picture(name)
+        if kind == "compare" and self.kind(self.compared(rest[1]))[0] == "reference":
+            rest = [*rest, "--reference-error", f"{rest[1]}_error"]
+        rest = [str(self.picture(w)) if self.compared(w) else w.replace("{shared}", str(self.shared)) for w in rest]
         rest = [str(self.root / w) if w.startswith("assets/") else w for w in rest]
         if kind == "ladder":
             return [sys.executable, self.root / "tools/ladder.py", "--bin", self.bin, *rest, "--json", file]
         program = self.bin / self.program(name)
-        return [program, *{"reference": [*rest, "--output", picture], "compare": [*rest, "--json", file],
+        return [program, *{"reference": [*rest, "--output", picture, "--error", self.picture(name + "_error")],
+                           "compare": [*rest, "--json", file],
                            "test": [*rest[1:], f"--gtest_output=json:{file}"]}.get(
             kind, [*rest, "--headless", "--output", picture, "--stats", file])]
 
@@ -201,7 +211,7 @@ class Numbers:
     def _run(self, run):
         self._asked.add(run)
         if run not in self._data:
-            raise KeyError(f"{run} was not measured; ./run numbers {run}")
+            raise KeyError(f"{run} was not measured; ./run numbers --only {run}")
         return self._data[run]
 
     def count(self, run, name):
@@ -303,12 +313,12 @@ def check(root):
             stale, count = [str(fault)], 0
         found += stale
         marks += count
-    needed = {word for words in runs.values() for word in words[1:]}
+    needed = {word.partition(":")[0] for words in runs.values() for word in words[1:]}
     for name, words in runs.items():
         if name not in data:
-            found.append(f"{LIST}: {name} was not measured; ./run numbers {name}")
+            found.append(f"{LIST}: {name} was not measured; ./run numbers --only {name}")
         elif data[name]["command"] != shlex.join(words):
-            found.append(f"{LIST}: {name} was measured with another command; ./run numbers {name}")
+            found.append(f"{LIST}: {name} was measured with another command; ./run numbers --only {name}")
         elif name not in numbers._asked | needed:
             found.append(f"{LIST}: no page asks for {name}")
     found += [f"{DATA}: {LIST.name} does not list {name}" for name in data if name not in runs]
@@ -337,13 +347,13 @@ def main():
     action.add_argument("--write", action="store_true", help="put the numbers into the pages")
     action.add_argument("--check", action="store_true", help="only say what differs")
     action.add_argument("--targets", action="store_true", help="print the programs that --measure would run")
-    parser.add_argument("names", nargs="*", help="of runs, or pages (07), or patterns; default: all")
+    parser.add_argument("--only", nargs="+", default=[], metavar="NN", help="pages (07), names of runs, or patterns")
     parser.add_argument("--bin", type=Path, help="the folder of the programs; default build/bin")
     parser.add_argument("--root", type=Path, default=ROOT, help="another repository")
     options = parser.parse_args()
     root = options.root.resolve()
     bench = Bench(root, (options.bin or root / "build" / "bin").resolve(), root.parent / "shared")
-    names = chosen(bench.runs, options.names)
+    names = chosen(bench.runs, options.only)
     if options.targets:
         print(" ".join(bench.targets(names)))
         return 0

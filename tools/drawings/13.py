@@ -41,8 +41,8 @@ def rungs():
                 -0.2, -0.9, 17, 4.4)
     arc = [(math.cos(math.radians(a)), math.sin(math.radians(a))) for a in range(0, 91, 5)]
     names = [("R1", "rays meet\nsurfaces", "truncation", BLUE), ("R2", "rays meet\nvoxels", "voxelization", RED),
-             ("R3", "512 cones,\npyramid", "filtering", ORANGE), ("R4", "96 cones", "quadrature", GREEN),
-             ("R5", "6 cones, and\nneighbours'", "reconstruction", INK)]
+             ("R3", "512 cones,\npyramid", "filtering", ORANGE), ("R4", "256 cones", "quadrature", GREEN),
+             ("R5", "16 cones, and\nneighbours'", "reconstruction", INK)]
     for n, (name, text, step, color) in enumerate(names):
         x0 = 0.3 + 3.3 * n
         p = (x0 + 0.4, 0.5)
