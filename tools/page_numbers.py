@@ -111,7 +111,7 @@ class Bench:
         kind, rest = self.kind(name)
         picture = self.picture(name)
         if kind == "compare" and self.kind(self.compared(rest[1]))[0] == "reference":
-            rest = [*rest, "--reference-error", f"{rest[1]}_error"]
+            rest = [*rest, "--reference-error", str(self.picture(rest[1] + "_error"))]
         rest = [str(self.picture(w)) if self.compared(w) else w.replace("{shared}", str(self.shared)) for w in rest]
         rest = [str(self.root / w) if w.startswith("assets/") else w for w in rest]
         if kind == "ladder":

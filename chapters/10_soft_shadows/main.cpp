@@ -1,9 +1,8 @@
 // 10_soft_shadows: a cone to every light, as wide as the light looks, and the shadow's edge is as soft as it should be.
 //
-//     V = product of (1 - A_i) over the surfaces i that the cone meets,     sin(half angle) = light radius / distance
+//     V = exp(-tau along the cone),     tan(half angle) = light radius / distance
 //
-// with A_i the share of the cone that surface i covers. The shadow maps of chapter 03 and the visibility that the voxels of
-// chapter 06 keep can be chosen instead.
+// beside the shadow maps of chapter 03 and the visibility that the voxels of chapter 06 keep.
 // Page: docs/10_soft_shadows.md
 #include "01_first_light/tone_map.hpp"
 #include "10_soft_shadows/soft_shadows.hpp"

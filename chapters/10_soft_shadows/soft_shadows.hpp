@@ -10,7 +10,7 @@ namespace conebook {
 enum class ShadowMethod : int { map = 0, cone = 1, volume = 2 };
 
 struct SoftShadowParams {
-    // map: chapter 03; cone: `shadow_cones` to each light; volume: the visibility of chapter 06 (first three lights), coarse.
+    // map: chapter 03; cone: one cone a light; volume: the visibility of chapter 06 (first three lights), coarse.
     int shadows = int(ShadowMethod::map);
     // Radius of point and spot lights in m, 0.001 .. 10: glTF's lights are points, so their size is given here.
     float light_radius = 0.05f;

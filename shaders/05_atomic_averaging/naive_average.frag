@@ -1,7 +1,7 @@
 #version 450 core
 // Two ways to put many fragments into one 8-bit texel, for comparison with the sums; the material is the same.
 // RACING_STORE: the last writer wins. Otherwise: running mean by compare-and-swap with the count in alpha
-// (Crassin & Green 2012, listing 22.2; Villegas 2016, section 3.3.2.4): C(i+1) = (i C(i) + x(i+1)) / (i+1).
+// (Crassin & Green 2012, listing 22.2; Villegas 2016, section 4.2): C(i+1) = (i C(i) + x(i+1)) / (i+1).
 #include "04_conservative_voxelization/triangle_voxels.glsl"
 #include "05_atomic_averaging/triangle_attributes.glsl"
 #include "05_atomic_averaging/triangle_part.glsl"

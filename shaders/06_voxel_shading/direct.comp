@@ -20,7 +20,7 @@ layout(std430, binding = kVisibilityBinding) writeonly buffer VisibilityBuffer {
 uniform int light_count;
 uniform float soft_sharpness;  // voxels
 
-// Cosine of the mean normal, or Villegas 2016, section 3.4: every axis weighs with the square of the normal's
+// Cosine of the mean normal, or Villegas 2016, section 4.4: every axis weighs with the square of the normal's
 // component and receives what light falls on its side.
 // snippet: cosine_factor
 float cosine_factor(vec3 n, vec3 l)
@@ -44,7 +44,7 @@ float ray_visibility(vec3 position_grid, vec3 normal, vec3 direction, float dist
     return hit.hit && hit.t < distance_grid - kRayStart ? 0.0 : 1.0;
 #else
     // snippet: soft_ray
-    // Villegas 2016, section 3.4.1: each voxel hit adds (1 - v) * hit / distance, so that what is near the receiver makes
+    // Villegas 2016, section 4.4: each voxel hit adds (1 - v) * hit / distance, so that what is near the receiver makes
     // a hard shadow and what is far away a soft one. A look, not a measurable quantity: there is no light size in it.
     float shadow = 0.0, travelled = 0.0;
     vec3 from = start;

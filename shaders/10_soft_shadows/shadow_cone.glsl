@@ -10,27 +10,16 @@ uniform float light_half_angle;   // rad, of directional lights
 uniform int shadow_cones;         // cones to a light
 uniform bool net_faces;           // false: each axis for itself, the stripes
 
-// snippet: constants
-// Derived. A linearly interpolated box of width w has the variance w^2 / 4, a disc of diameter D seen from the side
-// D^2 / 16: voxels half as wide as the cone blur an edge as the light does.
-const float kVoxelOverDiameter = 0.5, kStepOverVoxel = 0.5;
-// Derived. The tents of the interpolation, sampled at steps of up to half a voxel, add up to at least 0.96 of the whole
-// (at steps of 0.4), so this coverage is counted as the whole. Half the width of an interpolated wall is one voxel.
-const float kClosed = 0.96, kLead = 1.0;
-// Chosen; docs/10_soft_shadows.md has what the tests say about others. Share of a column that is counted as the whole,
-// since a slanted wall may touch a third voxel:
-const float kClosedColumn = 0.9;
-// share of a column's coverage at the point from which, and at which, the wall is there;
-const float kPeakFrom = 0.3, kPeakTo = 0.5;
-// net over met coverage from which, and at which, a wall faces the ray;
-const float kFacingFrom = 0.05, kFacingTo = 0.175;
-// coverage of a sample below which a surface has ended.
-const float kEmpty = 0.02;
-// end snippet
-const float kMaxSine = 0.95;            // a light may come closer than its radius
+// A linearly interpolated box of width w has the variance w^2 / 4, a disc of diameter D seen from the side D^2 / 16:
+// voxels half as wide as the cone blur an edge as the light does.
+const float kVoxelOverDiameter = 0.5;
+const float kStepOverVoxel = 0.5;  // sums of the interpolation's tents are then within 4 % of their integral,
+const float kClosed = 0.96;        // so this coverage is counted as the whole;
+const float kClosedColumn = 0.9;   // likewise two voxels of a wall at 45 degrees, whose column may touch a third
+const float kEmpty = 0.02;         // coverage of a sample below which a surface has ended
+const float kMaxSine = 0.95;       // a light may come closer than its radius
 const float kGoldenAngle = 2.39996323;  // rad
-
-vec3 ramp(vec3 x, float from, float to) { return clamp((x - from) / (to - from), 0.0, 1.0); }
+const float kLead = 1.0;           // voxels: half the width of an interpolated wall
 
 // Coverage of the faces that look along -axis or +axis (`faces`: 0 or 1 for each axis) at a point given in texels.
 vec3 coverage_of(vec3 texel, vec3 faces, int level)
@@ -74,8 +63,8 @@ Stopped stopped_at(vec3 position, vec3 direction, int level)
     // A slanted wall is a staircase of voxels, and how long a ray stays in it varies. But the two voxels of a column
     // next to the point hold the whole of it: their sum is what it covers, where at least half of that is at the point.
     vec3 column = column_of(q, 1.0 - along, level);
-    vec3 peak = ramp(against / max(column, vec3(1e-4)), kPeakFrom, kPeakTo) * step(vec3(1e-3), weight);
-    vec3 wall = column * peak * ramp(vec3(net / max(met, 1e-4)), kFacingFrom, kFacingTo);
+    vec3 peak = clamp(5.0 * against / max(column, vec3(1e-4)) - 1.5, 0.0, 1.0) * step(vec3(1e-3), weight);
+    vec3 wall = column * peak * clamp(8.0 * net / max(met, 1e-4) - 0.4, 0.0, 1.0);
     return Stopped(max(net_faces ? net : met, 0.0), net_faces ? dot(weight, min(against, with_ray)) : 0.0,
                    max(wall.x, max(wall.y, wall.z)));
     // end snippet
