@@ -139,7 +139,8 @@ TEST(Warnings, AreFaultsOnlyWhenStrict)
     const Files files;
     files.write("x.frag",
                 "#version 450 core\nout vec4 color;\n"
-                "void main() { float x; color = vec4(x); }\n");
+                "void main() { float x; color = vec4(x); }\n"
+                "// " + files.path().string() + ": a text that no driver's cache has seen\n");
     setenv("CONEBOOK_STRICT", "1", 1);
     EXPECT_NE(files.complaint().find("x.frag:3"), std::string::npos) << files.complaint();
     setenv("CONEBOOK_STRICT", "0", 1);

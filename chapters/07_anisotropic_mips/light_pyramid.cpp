@@ -122,7 +122,7 @@ void LightPyramid::bind_level(int level) const
 bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& reflected, Revision revision,
                        LightPart part)
 {
-    if (!made_from_.differs(faces.revision(), revision, part)) return false;
+    if (!made_from_.differs(faces.revision(), reflected.id(), revision, part)) return false;
     ++revision_;
     prepare(grid, faces);
     constexpr GLbitfield kWrittenImage = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;

@@ -72,7 +72,8 @@ private:
     void prepare(const VoxelGrid& grid, const VoxelFaces& faces);
     void bind_level(int level) const;
     MadeFrom<Revision> prepared_for_;                        // faces
-    MadeFrom<Revision, Revision, LightPart> made_from_;      // faces, what they reflect
+    // Faces, what they reflect: which buffer, for each counts its own revisions.
+    MadeFrom<Revision, GLuint, Revision, LightPart> made_from_;
     Revision revision_ = 0;
     LightFormat format_;
     gl::Program largest_radiance_, base_, next_level_;

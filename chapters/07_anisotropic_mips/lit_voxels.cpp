@@ -32,6 +32,14 @@ void LitVoxels::shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_
              [&] { return shading_.run(scene, grid_, voxelizer_, faces_, shadow_maps, params_.shading); });
 }
 
+void LitVoxels::filter_coverage(App& app)
+{
+    app.pass("coverage of voxels", Scope::scene, [&] {
+        return covered_by_.differs(faces_.revision()) &&
+               pyramid_.run(grid_, faces_, shading_.radiance(), shading_.revision(), LightPart::none);
+    });
+}
+
 void LitVoxels::filter(App& app, LightPart part) { filter(app, shading_.radiance(), shading_.revision(), part); }
 
 void LitVoxels::filter(App& app, const gl::Buffer& reflected, Revision revision, LightPart part)

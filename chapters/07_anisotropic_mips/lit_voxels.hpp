@@ -23,6 +23,8 @@ public:
     LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params);
     // What the faces reflect of the light that comes straight from the lights.
     void shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps);
+    // What the voxels cover, without light: for rays that start before the light is known.
+    void filter_coverage(App& app);
     // The pyramids of that part of their light, or of `reflected` instead of what shade() made.
     void filter(App& app, LightPart part = LightPart::all);
     void filter(App& app, const gl::Buffer& reflected, Revision revision, LightPart part);
@@ -42,6 +44,7 @@ private:
     VoxelFaces faces_;
     VoxelShading shading_;
     LightPyramid pyramid_;
+    MadeFrom<Revision> covered_by_;  // faces
 };
 
 }  // namespace conebook

@@ -24,7 +24,8 @@ Bounces::Bounces(gl::Shaders& shaders)
 bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitters& emitters, const ConeParams& cones,
                    const BounceParams& params)
 {
-    if (!linked_from_.differs(walk.revision(), emitters.revision(), cones.start_offset, params.links)) return false;
+    if (!linked_from_.differs(walk.revision(), emitters.revision(), cones.start_offset, cones.cone_table, cones.aperture,
+                              params.links)) return false;
     ++links_revision_;
     constexpr int kSets = 64;  // of 8 x 8 faces of a wall
     const std::size_t count = voxels.faces().face_count();

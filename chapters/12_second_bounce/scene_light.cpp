@@ -40,6 +40,8 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, b
     // Faces light faces, along links that stay.
     const bool many = params_.bounces.bounces < 0 || params_.bounces.bounces > 1;
     if (many) {
+        // The rays of faces ask the pyramid what covers the back of the place where they start.
+        voxels_.filter_coverage(app);
         app.pass("links", Scope::scene,
                  [&] { return bounces_.link(voxels_, walk_volume_, emitters_, cones, params_.bounces); });
         app.pass("further bounces", Scope::light, [&] { return bounces_.run(voxels_, cones, params_.bounces); });

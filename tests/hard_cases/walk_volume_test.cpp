@@ -63,8 +63,10 @@ public:
                     int touched = 0;  // a cell touches the eight voxels round its middle
                     for (int i = 0; i < 8; ++i) {
                         const glm::ivec3 v(x - (i & 1), y - (i >> 1 & 1), z - (i >> 2));
-                        if (glm::any(glm::lessThan(v, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(v, grid))) continue;
-                        const auto at = (std::size_t(v.z) * std::size_t(grid.y) + std::size_t(v.y)) * std::size_t(grid.x);
+                        if (glm::any(glm::lessThan(v, glm::ivec3(0))) || glm::any(glm::greaterThanEqual(v, grid)))
+                            continue;
+                        const auto at =
+                            (std::size_t(v.z) * std::size_t(grid.y) + std::size_t(v.y)) * std::size_t(grid.x);
                         touched |= occupancy[at + std::size_t(v.x)] != 0 ? 1 : 0;
                     }
                     sum({x + 1, y + 1, z + 1}) = touched + sum({x, y + 1, z + 1}) + sum({x + 1, y, z + 1}) +
@@ -80,7 +82,8 @@ public:
         int total = 0;
         for (int i = 0; i < 8; ++i) {
             const bool x = i & 1, y = i >> 1 & 1, z = i >> 2;
-            total += ((x + y + z) % 2 == 1 ? 1 : -1) * sum({x ? high.x : low.x, y ? high.y : low.y, z ? high.z : low.z});
+            total +=
+                ((x + y + z) % 2 == 1 ? 1 : -1) * sum({x ? high.x : low.x, y ? high.y : low.y, z ? high.z : low.z});
         }
         return total;
     }
@@ -134,8 +137,8 @@ TEST_P(WalkCellsOf, LeapsAreTheLargestThatAreEmpty)
 
 double inside_share(const shared::GridData& grid, int voxel, int axis)
 {
-    const double inside = std::min(voxel + 1.0, double(grid.content_max[axis])) -
-                          std::max(double(voxel), double(grid.content_min[axis]));
+    const double inside =
+        std::min(voxel + 1.0, double(grid.content_max[axis])) - std::max(double(voxel), double(grid.content_min[axis]));
     return std::clamp(inside, 1e-6, 1.0);
 }
 
@@ -155,7 +158,8 @@ TEST_P(WalkCellsOf, CoverageIsTheMeanOfTheEightVoxels)
         const glm::ivec3 v(int(list[i] & 511u), int(list[i] >> 9 & 511u), int(list[i] >> 18 & 511u));
         for (int side = 0; side < 6; ++side) {
             const double n = double(faces[i].normal[side / 2]);
-            covered[index(v)][std::size_t(side)] += double(faces[i].albedo_area.a) * std::max(side % 2 == 1 ? n : -n, 0.0);
+            covered[index(v)][std::size_t(side)] +=
+                double(faces[i].albedo_area.a) * std::max(side % 2 == 1 ? n : -n, 0.0);
         }
     }
     double worst = 0.0, most = 0.0;
@@ -243,7 +247,7 @@ TEST(WalkVolume, IsMadeOnceForTheSameFaces)
 // --- Rays ---
 
 struct Ray {
-    glm::vec4 origin;     // xyz: grid space, w: threshold
+    glm::vec4 origin;     // xyz: grid space, w: number of the cone, which has its threshold
     glm::vec4 direction;  // xyz: unit
 };
 struct RayEnd {
@@ -271,7 +275,7 @@ private:
 std::vector<RayEnd> ends_of(const Walked& w, const std::vector<Ray>& rays)
 {
     TestShaders test;
-    const gl::Program program = test.shaders->load({"tests/walk_rays.comp"});
+    const gl::Program program = test.shaders->load({"tests/walk_rays.comp"}, {{"MARCH", "0"}});
     const gl::Buffer in("rays", rays), out("ends", rays.size() * sizeof(RayEnd));
     w.voxels.grid().bind();
     w.walk.bind();
@@ -283,8 +287,7 @@ std::vector<RayEnd> ends_of(const Walked& w, const std::vector<Ray>& rays)
     return out.read<RayEnd>();
 }
 
-constexpr float kStopped = 0.9f;  // walk.glsl
-float threshold_of(std::size_t i) { return kStopped * float(std::fmod(0.5 + double(i) * 0.6180339887498949, 1.0)); }
+constexpr std::size_t kCones = 1024;  // of all sets together, at most
 
 // A square wall of side 1.6 across the middle of a box of 2 x 2 x 2 that two specks hold open, turned about y.
 Scene wall_scene(float turn_rad, float shift, float side = 1.6f)
@@ -313,8 +316,9 @@ TEST(Walk, EndsWithinAVoxelOfTheWall)
             std::vector<Ray> rays;
             std::vector<double> exact;
             while (rays.size() < 4096) {
-                // To a point that lies 3 voxels and more within the wall's edges, from up to 0.9 m away.
-                const double half = 0.8 - 3.0 * voxel;
+                // To a point so far within the edges, up to 0.9 m away, that the ray meets the blur of the wall alone: two
+                // voxels of it on either side, at a slant of 73 degrees seven along the wall, and one more.
+                const double half = 0.8 - 8.0 * voxel;
                 const glm::dvec3 goal = double(shift) * n + half * (2.0 * unit(random) - 1.0) * u +
                                         glm::dvec3(0, half * (2.0 * unit(random) - 1.0), 0);
                 const glm::dvec3 d(random_direction(random));
@@ -324,25 +328,31 @@ TEST(Walk, EndsWithinAVoxelOfTheWall)
                 if (glm::any(glm::greaterThan(glm::abs(from), glm::dvec3(0.98)))) continue;
                 // Not through the specks.
                 const glm::dvec3 origin = (from - glm::dvec3(w.grid().origin)) / voxel;
-                rays.push_back({glm::vec4(origin, threshold_of(rays.size())), glm::vec4(d, 0)});
+                rays.push_back({glm::vec4(origin, float(rays.size() % kCones)), glm::vec4(d, 0)});
                 exact.push_back(distance / voxel);
             }
             const std::vector<RayEnd> ends = ends_of(w, rays);
             double worst = 0.0, mean = 0.0;
-            std::size_t missed = 0;
+            std::size_t missed = 0, far_off = 0;
             for (std::size_t i = 0; i < ends.size(); ++i) {
-                if (ends[i].stopped == 0.0f) ++missed;
-                const double off = (double(ends[i].t) - exact[i]) * std::abs(glm::dot(glm::dvec3(rays[i].direction), n));
-                worst = std::max(worst, ends[i].stopped != 0.0f ? std::abs(off) : 0.0);
-                mean += off / double(ends.size());
+                if (ends[i].stopped == 0.0f) {
+                    ++missed;
+                    continue;
+                }
+                const double off =
+                    (double(ends[i].t) - exact[i]) * std::abs(glm::dot(glm::dvec3(rays[i].direction), n));
+                worst = std::max(worst, std::abs(off));
+                far_off += std::abs(off) >= 1.0 ? 1 : 0;
+                mean += off;
             }
-            std::printf("turned %.2f, shifted %.3f m: worst %.3f voxels, mean %+.3f, missed %zu\n", double(turn),
-                        double(shift), worst, mean, missed);
-            // A wall turned by 45 degrees adds up to 0.85 at places, so rays of higher thresholds pass (measured: 46 to 73),
-            // and others end in its last cells (1.87 voxels behind its middle).
+            mean /= double(ends.size() - missed);
+            std::printf("turned %.2f, shifted %.3f m: worst %.3f voxels, mean %+.3f, %zu a voxel off, %zu missed\n",
+                        double(turn), double(shift), worst, mean, far_off, missed);
+            // A wall turned by 45 degrees adds up to 0.85 at places, so rays of higher thresholds pass (measured: 35 to 52 of
+            // 4096), and others end in its last cells (1.78 voxels behind its middle).
             const bool straight = turn == 0.0f;
-            EXPECT_LE(missed, straight ? 0u : ends.size() / 20) << turn << " " << shift;
-            EXPECT_LT(worst, straight ? 1.0 : 2.0) << turn << " " << shift;
+            EXPECT_LE(missed, straight ? 0u : ends.size() / 64) << turn << " " << shift;
+            EXPECT_LT(worst, straight ? 1.0 : 1.8) << turn << " " << shift;
         }
 }
 
@@ -350,7 +360,7 @@ TEST(Walk, EndsWithinAVoxelOfTheWall)
 TEST(Walk, NeverEndsInEmptySpace)
 {
     for (const int count : {40, 100}) {
-        const Soup soup{"", {2, 1, 3}, count, 300, 0.6f};
+        const Soup soup{"", {2, 1, 3}, count, 1500, 0.6f};
         const Walked w(scene_of(soup), count);
         std::mt19937 random(11);
         std::uniform_real_distribution<float> unit(0.0f, 1.0f);
@@ -358,7 +368,7 @@ TEST(Walk, NeverEndsInEmptySpace)
         const glm::vec3 low(w.grid().content_min), extent = glm::vec3(w.grid().content_max) - low;
         for (std::size_t i = 0; i < 16384; ++i) {
             const glm::vec3 origin = low + extent * glm::vec3(unit(random), unit(random), unit(random));
-            rays.push_back({glm::vec4(origin, threshold_of(i)), glm::vec4(random_direction(random), 0)});
+            rays.push_back({glm::vec4(origin, float(i % kCones)), glm::vec4(random_direction(random), 0)});
         }
         const std::vector<RayEnd> ends = ends_of(w, rays);
         std::size_t stopped = 0, in_nothing = 0, short_of_exit = 0;
@@ -381,20 +391,21 @@ TEST(Walk, NeverEndsInEmptySpace)
         }
         EXPECT_EQ(in_nothing, 0u);
         EXPECT_EQ(short_of_exit, 0u);
-        EXPECT_GT(stopped, 1000u);
+        EXPECT_GT(stopped, 4000u);
         EXPECT_LT(stopped, ends.size());
     }
 }
 
-// A wall of small squares, one in each voxel's face, that covers a known share of it: that share of the rays ends there,
-// with thresholds spread as those of a pixel's cones are.
+// A wall of small squares, one in each voxel's face, that covers a known share of it: that share of a pixel's cones ends
+// there. Shares of which the volume's units hold a half without rounding.
 TEST(Walk, APartCoverStopsItsShare)
 {
-    constexpr int kVoxels = 32, kThresholds = 256;
-    for (const float share : {0.25f, 0.5f, 0.8f}) {
+    constexpr int kVoxels = 32, kPart = 256;
+    for (const int units : {4, 8, 12}) {
+        const double share = 2.0 * units / 30.0;
         SceneBuilder b;
         const int grey = b.material(lambert(0.5f));
-        const float side = std::sqrt(share);
+        const float side = float(std::sqrt(share));
         for (int y = 0; y < kVoxels; ++y)
             for (int z = 0; z < kVoxels; ++z)
                 b.quad(glm::vec3(16.3f, float(y) + 0.5f * (1 - side), float(z) + 0.5f * (1 - side)), {0, 0, side},
@@ -404,16 +415,20 @@ TEST(Walk, APartCoverStopsItsShare)
         const Walked w(scene, kVoxels);
         std::vector<Ray> rays;
         // Straight on it, at places all over a cell.
-        for (std::size_t i = 0; i < kThresholds; ++i)
+        for (int i = 0; i < kPart; ++i)
             for (int k = 0; k < 16; ++k) {
                 const glm::vec3 from(3.2f, 14.0f + 0.23f * float(k % 4), 15.0f + 0.23f * float(k / 4));
-                rays.push_back({glm::vec4(from, kStopped * (float(i) + 0.5f) / kThresholds), glm::vec4(1, 0, 0, 0)});
+                rays.push_back({glm::vec4(from, float(i)), glm::vec4(1, 0, 0, 0)});
             }
+        // Either of the two layers of cells holds half of it.
+        const glm::ivec3 cell(16, 15, 15);
+        ASSERT_EQ(w.cells.units(cell, 0), units);
+        ASSERT_EQ(w.cells.units(cell + glm::ivec3(1, 0, 0), 0), units);
         double stopped = 0.0;
         for (const RayEnd& end : ends_of(w, rays)) stopped += double(end.stopped) / double(rays.size());
-        std::printf("covered %.2f: %.4f stopped\n", double(share), stopped);
-        // Thresholds go up to 0.9 (kStopped of walk.glsl).
-        EXPECT_NEAR(stopped, double(share) / 0.9, 0.02) << share;
+        std::printf("covered %.4f: %.4f stopped\n", share, stopped);
+        // Thresholds go up to 0.9 (kStopped of walk.glsl), so that walls whose cells add up to 0.9 have no holes.
+        EXPECT_NEAR(stopped, share / 0.9, 0.02) << share;
     }
 }
 
