@@ -18,6 +18,8 @@ pkg_check_modules(egl QUIET IMPORTED_TARGET egl)
 conebook_need(egl_FOUND EGL libegl-dev)
 pkg_check_modules(glfw3 QUIET IMPORTED_TARGET glfw3)
 conebook_need(glfw3_FOUND GLFW libglfw3-dev)
+pkg_check_modules(imgui QUIET IMPORTED_TARGET imgui)
+conebook_need(imgui_FOUND "Dear ImGui" libimgui-dev)
 
 find_path(GLM_INCLUDE glm/glm.hpp)
 conebook_need(GLM_INCLUDE GLM libglm-dev)

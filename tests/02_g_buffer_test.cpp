@@ -215,9 +215,6 @@ TEST(GBuffer, NormalsAreKeptTo16Bits)
     EXPECT_LT(worst_rad, std::sqrt(18.0) * 0.5 / 32767.0 + 3e-7);
 }
 
-// One step of the 11 bits of a 16 bit float: llvmpipe cuts off where others round.
-constexpr double kHalfFloatStep = 1.0 / 1024.0;
-
 TEST(GBuffer, MaterialsComeBackWithinTheirFormats)
 {
     std::mt19937 random(2);
@@ -229,7 +226,7 @@ TEST(GBuffer, MaterialsComeBackWithinTheirFormats)
         m.roughness = 0.03f + 0.97f * uniform(random);
         m.specular = uniform(random);
         m.specular_color = {uniform(random), uniform(random), uniform(random)};
-        m.emission = glm::vec3(std::pow(10.0f, 7.0f * uniform(random) - 3.0f), 1.0f, 0.0f);  // 1e-3 .. 1e4
+        m.emission = glm::vec3(std::pow(10.0f, 10.0f * uniform(random) - 3.0f), 1.0f, 0.0f);  // 1e-3 .. 1e7
         SceneBuilder b;
         b.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, b.material(m));
         Deferred deferred(b.build(), look_at({0, 0, 1}, {0, 0, 0}, 0.8f), {4, 4});
@@ -240,11 +237,11 @@ TEST(GBuffer, MaterialsComeBackWithinTheirFormats)
             const double f0 = glm::mix(std::min(0.04 * double(m.specular_color[c]), 1.0) * m.specular,
                                        double(m.base_color[c]), double(m.metallic));
             EXPECT_NEAR(value("f0")[c], f0, step);
-            EXPECT_NEAR(value("emission")[c], m.emission[c], kHalfFloatStep * m.emission[c] + 1e-7);
+            EXPECT_NEAR(value("emission")[c], m.emission[c], 1e-6 * double(m.emission[c]));
         }
         EXPECT_NEAR(value("metallic").r, m.metallic, step);
         EXPECT_NEAR(value("f90").r, glm::mix(m.specular, 1.0f, m.metallic), step);
-        EXPECT_NEAR(value("roughness").r, m.roughness, kHalfFloatStep * m.roughness);
+        EXPECT_NEAR(value("roughness").r, m.roughness, 1e-6);
     }
 }
 

@@ -53,7 +53,7 @@ PyramidLevel base_on_cpu(const VoxelPipeline& pipeline, Directions directions)
         }
     for_each_voxel(level, [&](int direction, const glm::ivec3& v) {
         glm::dvec4& texel = level.at(direction, v);
-        texel = glm::min(texel / std::max(texel.a, 1.0), glm::dvec4(65504.0));
+        texel /= std::max(texel.a, 1.0);
     });
     return level;
 }

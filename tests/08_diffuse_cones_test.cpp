@@ -237,7 +237,7 @@ TEST(Floor, OpenToTheSkyGathersTheSky)
     ConeParams params = usual();
     params.sky = 1.0f;
     const ImageF gathered = pipeline.gathered(params);
-    EXPECT_NEAR(spread_of(gathered).low, 1.0, 0.002);  // RGBA16F: 0.0005
+    EXPECT_NEAR(spread_of(gathered).low, 1.0, 0.002);
     EXPECT_NEAR(spread_of(gathered).high, 1.0, 0.002);
     EXPECT_NEAR(spread_of(gathered, 3).low, 1.0, 0.002);
 }

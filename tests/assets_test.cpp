@@ -132,7 +132,7 @@ TEST(Assets, GeneratorWritesTheCommittedFiles) {
     const fs::path folder = fs::temp_directory_path() / ("conebook_assets_" + std::to_string(getpid()));
     fs::create_directories(folder);
     const std::string command =
-        "'" + (from_environment("CONEBOOK_BIN") / "make_assets").string() + "' '" + folder.string() + "' > /dev/null";
+        std::string("'") + (from_environment("CONEBOOK_BIN") / "make_assets").string() + "' '" + folder.string() + "' > /dev/null";
     ASSERT_EQ(std::system(command.c_str()), 0);
     const fs::path committed = from_environment("CONEBOOK_ROOT") / "assets";
     EXPECT_EQ(glb_names(folder), glb_names(committed));
@@ -144,7 +144,7 @@ TEST(Assets, GeneratorWritesTheCommittedFiles) {
 
 TEST(Assets, GeneratorRefusesAFolderThatIsNotThere) {
     const std::string command =
-        "'" + (from_environment("CONEBOOK_BIN") / "make_assets").string() + "' /no/such/folder > /dev/null 2>&1";
+        std::string("'") + (from_environment("CONEBOOK_BIN") / "make_assets").string() + "' /no/such/folder > /dev/null 2>&1";
     EXPECT_NE(std::system(command.c_str()), 0);
 }
 

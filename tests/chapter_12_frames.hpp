@@ -43,9 +43,11 @@ public:
     std::map<std::string, int> draw()
     {
         EXPECT_TRUE(app_->next_frame());
-        scene_light->run(*app_, scene, params.camera.cones, asks_shadow_maps(params.camera.shadows));
+        const LightPlan plan = plan_light(traits_of(app_->scene()), params.scene.voxels.shading, params.scene.bounces,
+                                          params.camera.shadows);
+        scene_light->run(*app_, scene, params.camera.cones, plan);
         camera_light->see(*app_, scene);
-        camera_light->gather(*app_);
+        camera_light->gather(*app_, plan);
         picture = &camera_light->sum(*app_);
         app_->show(*picture, *picture);
         app_->statistics().write_json(folder_ / "stats.json");

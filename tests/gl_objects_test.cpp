@@ -56,6 +56,25 @@ TEST(Labels, GroupsOfAnyNameOpenAndClose)
     EXPECT_TRUE(gl.log.faults().empty()) << gl.log.faults().front();
 }
 
+TEST(StorageBlocks, BeyondTheDriversLimitAreRefusedByName)
+{
+    test_gl();
+    const std::size_t most = gl::most_storage_bytes();
+    EXPECT_GE(most, std::size_t(1) << 27);  // what OpenGL 4.5 promises
+    EXPECT_NO_THROW(gl::require_storage("grains", most / 8, 8, "a smaller heap"));
+    try {
+        gl::require_storage("grains", most / 8 + 1, 8, "a smaller heap");
+        FAIL() << "not refused";
+    } catch (const std::runtime_error& error) {
+        const std::string message = error.what();
+        EXPECT_EQ(message.find(std::to_string(most / 8 + 1) + " grains"), 0u) << message;
+        EXPECT_NE(message.find(std::to_string(most >> 20) + " MiB, GL_MAX_SHADER_STORAGE_BLOCK_SIZE"),
+                  std::string::npos)
+            << message;
+        EXPECT_NE(message.find("use a smaller heap"), std::string::npos) << message;
+    }
+}
+
 class Timer : public testing::TestWithParam<PassTimer::Clock> {};
 
 // Every run of every pass is counted once, and passes stand in the order in which they first ran, although results of GPU

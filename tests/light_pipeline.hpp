@@ -15,15 +15,15 @@ public:
     LightPipeline(const Scene& scene, const Camera& camera, glm::ivec2 size, int voxels)
         // The voxels hold what surfaces reflect, the emitters the rest.
         : lit_(scene, voxels),
-          emitters_(test_gl().shaders, scene, lit_.grid, {}),
+          emitters_(test_gl().shaders, scene),
           g_buffer_(test_gl().shaders, size),
           walk_(test_gl().shaders),
           diffuse_(test_gl().shaders),
           emitter_light_(test_gl().shaders)
     {
         walk_.run(lit_.grid, lit_.faces);
-        emitters_.run(lit_.grid, lit_.faces, lit_.shading);
-        lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), lit_.shading.revision(),
+        emitters_.run(lit_.grid, lit_.faces, lit_.shading, {});
+        lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), lit_.shading.revision(), {},
                          emitters_.part_of_voxels());
         look(camera);
     }
@@ -36,7 +36,8 @@ public:
     // Only what the faces emit by themselves stays in the pyramids.
     void keep_emission_alone()
     {
-        lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), lit_.shading.revision(), LightPart::none);
+        lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), lit_.shading.revision(), {},
+                          LightPart::none);
     }
 
     // Mean visible share of the lights, 0..1, in all channels; alpha 1 where there is a surface.
@@ -50,8 +51,8 @@ public:
     {
         SoftShadowLighting lighting(test_gl().shaders);
         params.shadows = int(method);
-        return read_picture(lighting.run(g_buffer_, lit_.scene, lit_.grid, lit_.faces, lit_.shading, lit_.pyramid,
-                                         lit_.shadow_maps, cone_params, params, show_visibility));
+        return read_picture(lighting.run(g_buffer_, lit_.scene, {lit_.grid, lit_.pyramid, walk_}, lit_.faces,
+                                         lit_.shading, lit_.shadow_maps, cone_params, params, show_visibility));
     }
     // rgb: E / pi, the cosine-weighted mean radiance over the hemisphere, W/(sr m^2); a: ambient.
     ImageF gathered(const ConeParams& params)

@@ -15,14 +15,14 @@ struct LitScene : VoxelScene {
     LitScene(const Scene& source, int voxels, const VoxelShadingParams& shading_params = {},
              const PyramidParams& pyramid_params = {})
         : VoxelScene(source, source.bounds, voxels),
-          shadow_maps(test_gl().shaders, scene, {}),
+          shadow_maps(test_gl().shaders),
           shading(test_gl().shaders),
-          pyramid(test_gl().shaders, grid, pyramid_params)
+          pyramid(test_gl().shaders)
     {
-        shadow_maps.draw(scene);
+        shadow_maps.draw(scene, {});
         average();
         shading.run(scene, grid, voxelizer, faces, shadow_maps, shading_params);
-        pyramid.run(grid, faces, shading.radiance(), shading.revision());
+        pyramid.run(grid, faces, shading.radiance(), shading.revision(), pyramid_params);
     }
 };
 

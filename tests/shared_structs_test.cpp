@@ -27,14 +27,15 @@ layout(std430, binding = 2) readonly buffer ShadowLayers { ShadowLayer shadow_la
 layout(std430, binding = 3) readonly buffer ShadowLights { ShadowLight shadow_lights[]; };
 layout(std430, binding = 4) readonly buffer Faces { VoxelFace faces[]; };
 layout(std430, binding = 5) buffer Counters { VoxelStatistics counters[]; };
+layout(std430, binding = 6) readonly buffer Ranges { FragmentRange ranges[]; };
 layout(std140, binding = 0) uniform Camera { CameraData camera; };
 layout(std140, binding = 1) uniform Grid { GridData grid; };
 layout(std140, binding = 3) uniform Material { MaterialData material; };
 void main()
 {
-    counters[0].fragments = uint(material.flags) + uint(lights[1].spot.x) + uint(shadow_layers[1].clip_from_scene[0].x) +
-                            uint(shadow_lights[1].layers.x) + uint(faces[1].normal.x) + uint(camera.size.x) +
-                            uint(grid.size.x);
+    counters[0].degenerate = uint(material.flags) + uint(lights[1].spot.x) + ranges[1].count +
+                             uint(shadow_layers[1].clip_from_scene[0].x) + uint(shadow_lights[1].layers.x) +
+                             uint(faces[1].normal.x) + uint(camera.size.x) + uint(grid.size.x);
 }
 )";
 
@@ -129,6 +130,7 @@ TEST_F(SharedStructs, CameraData)
 TEST_F(SharedStructs, ShadowLayerAndLight)
 {
     expect_member("shadow_layers[0].clip_from_scene", offsetof(shared::ShadowLayer, clip_from_scene));
+    expect_member("shadow_layers[0].place", offsetof(shared::ShadowLayer, place));
     expect_stride("shadow_layers[0].clip_from_scene", sizeof(shared::ShadowLayer));
     expect_member("shadow_lights[0].layers", offsetof(shared::ShadowLight, layers));
     expect_stride("shadow_lights[0].layers", sizeof(shared::ShadowLight));
@@ -153,14 +155,23 @@ TEST_F(SharedStructs, VoxelFaceAndStatistics)
     expect_member("faces[0].position", offsetof(T, position));
     expect_stride("faces[0].position", sizeof(T));
     using S = shared::VoxelStatistics;
-    expect_member("counters[0].fragments", offsetof(S, fragments));
     expect_member("counters[0].degenerate", offsetof(S, degenerate));
+    expect_member("counters[0].large", offsetof(S, large));
     expect_member("counters[0].voxels", offsetof(S, voxels));
     expect_member("counters[0].faces", offsetof(S, faces));
     expect_stride("counters[0].faces", sizeof(S));
 }
 
-// Compute shaders read vertices as 18 floats (shaders/04_conservative_voxelization/triangle_voxels.glsl).
+TEST_F(SharedStructs, FragmentRange)
+{
+    using T = shared::FragmentRange;
+    expect_member("ranges[0].begin", offsetof(T, begin));
+    expect_member("ranges[0].capacity", offsetof(T, capacity));
+    expect_member("ranges[0].count", offsetof(T, count));
+    expect_stride("ranges[0].count", sizeof(T));
+}
+
+// Compute shaders read vertices as 18 floats (shaders/04_conservative_voxelization/scene_triangles.glsl).
 TEST_F(SharedStructs, VerticesAreEighteenFloats)
 {
     EXPECT_EQ(sizeof(Vertex), 18 * sizeof(float));

@@ -63,11 +63,11 @@ inline std::vector<std::array<glm::vec3, 3>> random_triangles(std::mt19937& rand
 
 class SoupPipeline {
 public:
-    SoupPipeline(const Scene& scene, int voxels, Voxelizer voxelizer = Voxelizer::raster)
+    SoupPipeline(const Scene& scene, int voxels, Voxelizer voxelizer = Voxelizer::compute)
         : SoupPipeline(scene, scene.bounds, voxels, voxelizer)
     {
     }
-    SoupPipeline(const Scene& scene, const Bounds& bounds, int voxels, Voxelizer voxelizer = Voxelizer::raster,
+    SoupPipeline(const Scene& scene, const Bounds& bounds, int voxels, Voxelizer voxelizer = Voxelizer::compute,
                  bool conservative = true)
         : voxels_(scene, bounds, voxels, {int(voxelizer), conservative, false})
     {
@@ -104,6 +104,7 @@ public:
     {
         return voxels_.voxelizer.statistics_buffer().read_at<shared::VoxelStatistics>(0);
     }
+    std::size_t fragment_count() const { return voxels_.voxelizer.fragment_count(); }
     double total_area_voxels() const
     {
         double sum = 0.0;

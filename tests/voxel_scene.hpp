@@ -10,21 +10,23 @@ namespace conebook {
 struct VoxelScene {
     GpuScene scene;
     VoxelGrid grid;
+    VoxelizerParams voxelizer_params;
     ConservativeVoxelizer voxelizer;
     VoxelFaces faces;
 
     VoxelScene(const Scene& source, const Bounds& bounds, int voxels, const VoxelizerParams& params = {})
         : scene((test_gl(), source)),  // the context comes first
           grid(bounds, {voxels}),
-          voxelizer(test_gl().shaders, grid, params),
-          faces(test_gl().shaders, grid, voxelizer)
+          voxelizer_params(params),
+          voxelizer(test_gl().shaders),
+          faces(test_gl().shaders, voxelizer)
     {
     }
     // Anew, whether anything has changed or not.
     void voxelize()
     {
         voxelizer.forget();
-        voxelizer.run(scene, grid);
+        voxelizer.run(scene, grid, voxelizer_params);
     }
     void average()
     {

@@ -1,6 +1,17 @@
 #include "01_first_light/forward_pass.hpp"
 
+#include <iterator>
+
 namespace conebook {
+
+std::optional<ForwardOutput> forward_output(const std::string& view)
+{
+    // In the order of ForwardOutput.
+    constexpr const char* kViews[] = {"final", "direct", "emission", "base_color", "normal", "depth"};
+    for (std::size_t i = 0; i < std::size(kViews); ++i)
+        if (view == kViews[i]) return ForwardOutput(i);
+    return std::nullopt;
+}
 
 ForwardPass::ForwardPass(gl::Shaders& shaders)
     : program_(shaders.load({"01_first_light/scene.vert", "01_first_light/forward.frag"})),
@@ -21,7 +32,7 @@ const gl::Texture& ForwardPass::run(const GpuScene& scene, const shared::CameraD
     camera_buffer_.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     framebuffer_.bind(size);
     constexpr float kNothing[4] = {0.0f, 0.0f, 0.0f, 0.0f};
-    constexpr float kFarthest = 0.0f;  // reversed depth: 1 at the near plane, 0 at infinity
+    constexpr float kFarthest = 0.0f;  // reversed depth: 1 at the near plane, 0 at the far one
     glClearNamedFramebufferfv(framebuffer_.id(), GL_COLOR, 0, kNothing);
     glClearNamedFramebufferfv(framebuffer_.id(), GL_DEPTH, 0, &kFarthest);
 

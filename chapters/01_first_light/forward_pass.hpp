@@ -1,6 +1,9 @@
 // Draws the scene and lights every pixel at once: the shortest way from triangles to radiance.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "gl/gpu_scene.hpp"
 #include "gl/handles.hpp"
 #include "gl/shaders.hpp"
@@ -9,6 +12,9 @@ namespace conebook {
 
 // What the pass writes; forward.frag has the same numbers.
 enum class ForwardOutput : int { radiance, direct, emission, base_color, normal, depth };
+
+// That of the view with this name, if any: the outputs' names are those of the views that all chapters have.
+std::optional<ForwardOutput> forward_output(const std::string& view);
 
 class ForwardPass {
 public:

@@ -16,39 +16,20 @@ using namespace conebook;
 
 namespace {
 
-struct ForwardView {
-    View view;
-    ForwardOutput output;
-};
-
-const std::vector<ForwardView>& forward_views()
-{
-    static const std::vector<ForwardView> views = {
-        {{"final", Encoding::radiance, "direct light and emission, W/(sr m^2)"}, ForwardOutput::radiance},
-        {{"direct", Encoding::radiance, "reflected light of all lights, W/(sr m^2)"}, ForwardOutput::direct},
-        {{"emission", Encoding::radiance, "emitted light, W/(sr m^2)"}, ForwardOutput::emission},
-        {{"base_color", Encoding::color, "base colour, linear in .exr"}, ForwardOutput::base_color},
-        {{"normal", Encoding::data, "shading normal in scene space, * 0.5 + 0.5"}, ForwardOutput::normal},
-        {{"depth", Encoding::data, "distance along the camera's axis, m in .exr, scaled in .png"},
-         ForwardOutput::depth},
-    };
-    return views;
-}
-
 ProgramInfo program_info(DisplayParams& display)
 {
     ProgramInfo info;
     info.name = "01_first_light";
-    for (const ForwardView& v : forward_views()) info.views.push_back(v.view);
+    info.views = {
+        {"final", Encoding::radiance, "direct light and emission, W/(sr m^2)"},
+        {"direct", Encoding::radiance, "reflected light of all lights, W/(sr m^2)"},
+        {"emission", Encoding::radiance, "emitted light, W/(sr m^2)"},
+        {"base_color", Encoding::color, "base colour, linear in .exr"},
+        {"normal", Encoding::data, "shading normal in scene space, * 0.5 + 0.5"},
+        {"depth", Encoding::data, "distance along the camera's axis, m in .exr, scaled in .png"},
+    };
     add_parameters(info.parameters, display);
     return info;
-}
-
-ForwardOutput output_of(const View& view)
-{
-    for (const ForwardView& v : forward_views())
-        if (v.view.name == view.name) return v.output;
-    return ForwardOutput::radiance;
 }
 
 }  // namespace
@@ -61,13 +42,15 @@ try {
     ForwardPass forward(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         const gl::Texture* linear = nullptr;
         const gl::Texture* picture = nullptr;
 
         // snippet: frame
         // Triangles to radiance: draw the scene, light each pixel.
-        app.pass("forward", [&] { linear = &forward.run(scene, app.camera(), app.size(), output_of(app.view())); });
+        app.pass("forward", [&] {
+            linear = &forward.run(scene, app.camera(), app.size(), *forward_output(app.view().name));
+        });
 
         // Radiance to the display: exposure, tone curve, sRGB, once and last.
         app.pass("tone map", [&] {
@@ -75,7 +58,7 @@ try {
         });
         app.show(*linear, *picture);
         // end snippet
-    }
+    });
 
     for (const auto& part : {scene.resources(), forward.resources(), tone_map.resources()})
         app.statistics().add_resources(part);

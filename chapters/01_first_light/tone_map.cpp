@@ -1,5 +1,7 @@
 #include "01_first_light/tone_map.hpp"
 
+#include "gl/pixel_pass.hpp"
+
 namespace conebook {
 
 void add_parameters(ParameterTable& table, DisplayParams& params)
@@ -23,20 +25,15 @@ ToneMapPass::ToneMapPass(gl::Shaders& shaders)
 const gl::Texture& ToneMapPass::run(const gl::Texture& linear, Encoding encoding, const DisplayParams& params,
                                     float data_scale)
 {
-    if (display_.size_2d() != linear.size_2d()) {
-        display_ = gl::texture_2d("display", GL_RGBA8, linear.size_2d());
-        framebuffer_ = gl::Framebuffer("tone map", {&display_});
-    }
-    framebuffer_.bind(display_.size_2d());
+    gl::fit_to_pixels(display_, framebuffer_, "display", GL_RGBA8, linear.size_2d());
     linear.bind(0);
-    program_.use();
     program_.set("encoding", int(encoding));
     program_.set("tone_curve", params.tone_curve);
     program_.set("exposure", params.exposure);
     program_.set("white", params.white);
     program_.set("srgb", params.srgb);
     program_.set("data_scale", data_scale);
-    gl::draw_fullscreen_triangle(empty_);
+    gl::draw_pixels(program_, framebuffer_, no_vertices_, linear.size_2d());
     return display_;
 }
 

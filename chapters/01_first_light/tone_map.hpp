@@ -43,7 +43,7 @@ public:
 
 private:
     gl::Program program_;
-    gl::VertexArray empty_;
+    gl::VertexArray no_vertices_;
     gl::Texture display_;
     gl::Framebuffer framebuffer_;
 };

@@ -1,5 +1,7 @@
 #include "02_g_buffer/direct_lighting.hpp"
 
+#include "gl/pixel_pass.hpp"
+
 namespace conebook {
 
 DirectLightingPass::DirectLightingPass(gl::Shaders& shaders, Shadows shadows)
@@ -10,16 +12,11 @@ DirectLightingPass::DirectLightingPass(gl::Shaders& shaders, Shadows shadows)
 
 const gl::Texture& DirectLightingPass::run(const GBuffer& g_buffer, const GpuScene& scene, LightingOutput output)
 {
-    if (radiance_.size_2d() != g_buffer.size()) {
-        radiance_ = gl::texture_2d("direct light", GL_RGBA32F, g_buffer.size());
-        framebuffer_ = gl::Framebuffer("direct light", {&radiance_});
-    }
-    framebuffer_.bind(radiance_.size_2d());
+    gl::fit_to_pixels(radiance_, framebuffer_, "direct light", GL_RGBA32F, g_buffer.size());
     g_buffer.bind();
     scene.bind_lights(program_);
     program_.set("with_emission", output == LightingOutput::direct_and_emission);
-    program_.use();
-    gl::draw_fullscreen_triangle(empty_);
+    gl::draw_pixels(program_, framebuffer_, no_vertices_, g_buffer.size());
     return radiance_;
 }
 

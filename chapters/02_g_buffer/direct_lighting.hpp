@@ -22,7 +22,7 @@ public:
 
 private:
     gl::Program program_;
-    gl::VertexArray empty_;
+    gl::VertexArray no_vertices_;
     gl::Texture radiance_;
     gl::Framebuffer framebuffer_;
 };

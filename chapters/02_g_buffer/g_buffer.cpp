@@ -17,7 +17,7 @@ void GBuffer::resize(glm::ivec2 size)
     geometric_normal_ = gl::texture_2d("g-buffer geometric normal", GL_RG16_SNORM, size);
     base_color_metallic_ = gl::texture_2d("g-buffer base colour, metallic", GL_RGBA16, size);
     f0_f90_ = gl::texture_2d("g-buffer f0, f90", GL_RGBA16, size);
-    emission_roughness_ = gl::texture_2d("g-buffer emission, roughness", GL_RGBA16F, size);
+    emission_roughness_ = gl::texture_2d("g-buffer emission, roughness", GL_RGBA32F, size);
     framebuffer_ = gl::Framebuffer(
         "g-buffer", {&normal_, &geometric_normal_, &base_color_metallic_, &f0_f90_, &emission_roughness_}, &depth_);
 }

@@ -7,13 +7,13 @@
 
 namespace conebook {
 
-// 36 bytes a pixel:
-//   depth               DEPTH32F       reversed: 1 at the near plane, 0 far away and where nothing was drawn
+// 44 bytes a pixel:
+//   depth               DEPTH32F       reversed: 1 at the near plane, 0 at the far one and where nothing was drawn
 //   normal              RG16_SNORM     shading normal, octahedral, scene space, of the side that is seen
 //   geometric_normal    RG16_SNORM     of the triangle, octahedral, towards the camera
-//   base_color_metallic RGBA16         linear; 8 bits would be 0.6 % off at 0.5; 0 for unlit materials
+//   base_color_metallic RGBA16         linear; 8 bits would be 10 % off at 0.02; 0 for unlit materials
 //   f0_f90              RGBA16         specular reflectance at normal and at grazing incidence
-//   emission_roughness  RGBA16F        radiance, W/(sr m^2), up to 65504; perceptual roughness
+//   emission_roughness  RGBA32F        radiance, W/(sr m^2); perceptual roughness
 class GBuffer {
 public:
     GBuffer(gl::Shaders& shaders, glm::ivec2 size);

@@ -1,5 +1,7 @@
 #include "02_g_buffer/g_buffer_view.hpp"
 
+#include "gl/pixel_pass.hpp"
+
 namespace conebook {
 
 std::vector<View> surface_views()
@@ -34,15 +36,10 @@ const gl::Texture* GBufferViewPass::run(const GBuffer& g_buffer, const std::stri
     while (attachment < views.size() && views[attachment].name != view) ++attachment;
     if (attachment == views.size()) return nullptr;
 
-    if (color_.size_2d() != g_buffer.size()) {
-        color_ = gl::texture_2d("view", GL_RGBA32F, g_buffer.size());
-        framebuffer_ = gl::Framebuffer("view", {&color_});
-    }
-    framebuffer_.bind(color_.size_2d());
+    gl::fit_to_pixels(color_, framebuffer_, "view", GL_RGBA32F, g_buffer.size());
     g_buffer.bind();
-    program_.use();
     program_.set("attachment", int(attachment));
-    gl::draw_fullscreen_triangle(empty_);
+    gl::draw_pixels(program_, framebuffer_, no_vertices_, g_buffer.size());
     return &color_;
 }
 

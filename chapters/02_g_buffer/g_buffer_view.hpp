@@ -1,7 +1,6 @@
 // The attachments of the g-buffer as pictures, for --view.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,7 @@ public:
 
 private:
     gl::Program program_;
-    gl::VertexArray empty_;
+    gl::VertexArray no_vertices_;
     gl::Texture color_;
     gl::Framebuffer framebuffer_;
 };

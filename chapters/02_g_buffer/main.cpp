@@ -48,7 +48,7 @@ try {
     GBufferViewPass g_buffer_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         for (const gl::Program& program : {direct_lighting.program(), g_buffer_view.program()})
             program.set("g_depth_bits", params.depth_bits);
         const gl::Texture* linear = nullptr;
@@ -78,7 +78,7 @@ try {
             picture = &tone_map.run(*linear, app.view().encoding, params.display, data_scale(app.view(), scene.bounds()));
         });
         app.show(*linear, *picture);
-    }
+    });
 
     for (const auto& part : {scene.resources(), g_buffer.resources(), direct_lighting.resources(), tone_map.resources()})
         app.statistics().add_resources(part);

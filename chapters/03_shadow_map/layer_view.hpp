@@ -6,7 +6,7 @@
 namespace conebook {
 
 struct LayerViewParams {
-    int layer = 0;  // of all maps, 0 .. 1023; those of a point light are +x -x +y -y +z -z
+    int layer = 0;  // of all maps, 0 .. 65535; those of a point light are +x -x +y -y +z -z
 };
 void add_parameters(ParameterTable& table, LayerViewParams& params);
 

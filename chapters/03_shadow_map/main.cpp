@@ -4,7 +4,7 @@
 //
 // for directional lights (one orthographic map), spots (one perspective map) and points (six of them).
 // Page: docs/03_shadow_map.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
 #include "02_g_buffer/g_buffer_view.hpp"
 #include "03_shadow_map/layer_view.hpp"
@@ -30,17 +30,18 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    app.show_meanwhile(first_light(app, scene, display_params));
+    ShadowMaps shadow_maps(app.shaders());
     LayerViewPass layer_view(app.shaders());
     GBuffer g_buffer(app.shaders(), app.size());
     GBufferViewPass g_buffer_view(app.shaders());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // snippet: frame
         // What the lights see.
-        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // What the camera sees.
         g_buffer.resize(app.size());
@@ -60,7 +61,7 @@ try {
         if (app.shows("shadow_map")) linear = &layer_view.run(shadow_maps, layer_params, app.size());
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params,
                                        data_scale(app.view(), scene.bounds())));
-    }
+    });
 
     for (const auto& part : {scene.resources(), shadow_maps.resources(), g_buffer.resources(),
                              direct_lighting.resources()})

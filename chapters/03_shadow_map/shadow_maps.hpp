@@ -20,38 +20,49 @@ struct ShadowMapParams {
 };
 void add_parameters(ParameterTable& table, ShadowMapParams& params);
 
-// Directional and spot lights have one layer of a depth array, point lights (and spots wider than 75 degrees) six.
-// Throws std::runtime_error when the scene's lights need more layers than the driver has.
+// Directional and spot lights have one map, fitted to where their shadows fall; point lights (and spots wider than 75 degrees)
+// have six, or one where they are so far outside that it holds the whole scene. Lights that give nothing or throw no shadow
+// have none. Throws std::runtime_error when maps of 64 texels a side take more than 1 GiB together, 65536 of them.
 class ShadowMaps {
 public:
-    ShadowMaps(gl::Shaders& shaders, const GpuScene& scene, const ShadowMapParams& params);
-    // Draws the maps if scene or lights have changed, and says whether it did.
-    bool draw(const GpuScene& scene);
+    explicit ShadowMaps(gl::Shaders& shaders);
+    // Draws the maps if scene, lights or their size have changed, and says whether it did. Throws std::runtime_error when
+    // the scene's lights need more layers than the driver has.
+    bool draw(const GpuScene& scene, const ShadowMapParams& params);
     void forget() { made_from_.forget(); }  // the next call draws whatever has changed, for measuring
+    // Changes whenever the maps do, or how they are looked into.
     Revision revision() const { return revision_; }
     // For shaders that include common/shadow_map.glsl: kShadowLayerBinding, kShadowLightBinding, kShadowMapUnit.
     void bind(const gl::Program& program) const;
 
     int layers() const { return int(layers_.size()); }
-    int size() const { return depth_.size().x; }  // of every map, texels
-    const glm::mat4& clip_from_scene(int layer) const { return layers_[std::size_t(layer)].clip_from_scene; }
+    int size() const { return size_; }  // of every map, texels
+    const shared::ShadowLayer& layer(int i) const { return layers_[std::size_t(i)]; }
     const gl::Texture& depth() const { return depth_; }  // DEPTH32F array, 1 near .. 0 far
     std::vector<gl::Resource> resources() const { return {depth_.resource()}; }
     // One entry a light: the maps that it has, or why it has none.
     std::vector<Need> needs(const GpuScene& scene) const;
 
 private:
-    ShadowMapParams params_;
-    MadeFrom<Revision, Revision> made_from_;  // geometry, lights
+    void aim(const GpuScene& scene);
+
+    ShadowMapParams params_;                       // of the last draw
+    MadeFrom<Revision, Revision, int> made_from_;  // geometry, lights, size
+    MadeFrom<float, bool> looked_into_;            // bias, receiver plane
     Revision revision_ = 0;
+    bool drawn_ = false;
     gl::Program program_;
     std::vector<shared::ShadowLayer> layers_;
+    std::vector<shared::ShadowLight> lights_;
     gl::Buffer layer_buffer_, light_buffer_;
+    int size_ = 1;
     gl::Texture depth_;
     gl::Framebuffer framebuffer_;
 };
 
-// The matrices of a light's layers: depth 1 near, 0 far. `bounds` are the scene's. Empty for a light that gives nothing.
-std::vector<glm::mat4> shadow_matrices(const Light& light, const Bounds& bounds, int map_size);
+// The matrices of a light's maps: depth 1 near, 0 far. `bounds` are the scene's. Empty for a light that gives nothing or
+// throws no shadow. Without `triangles` nothing is fitted: the maps hold all that is in `bounds`.
+std::vector<glm::mat4> shadow_matrices(const Light& light, const Bounds& bounds, const std::vector<Triangle>* triangles,
+                                       int map_size);
 
 }  // namespace conebook

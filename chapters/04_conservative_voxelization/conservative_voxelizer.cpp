@@ -18,73 +18,134 @@ void add_parameters(ParameterTable& table, VoxelViewParams& params)
     table.add("shaded", params.shaded, "voxel view: shade the cubes");
 }
 
-void for_each_column(const gl::Program& program, Voxelizer voxelizer, const GpuScene& scene, const VoxelGrid& grid,
-                     const gl::Framebuffer& column_plane)
-{
-    grid.bind();
-    if (voxelizer == Voxelizer::compute) {
-        scene.dispatch_triangles(program);
-        return;
-    }
-    const glm::ivec3 size = grid.size();
-    column_plane.bind(glm::ivec2(std::max({size.x, size.y, size.z})));
-    glDisable(GL_DEPTH_TEST);
-    glDisable(GL_BLEND);
-    scene.draw(program, Culling::none);
-}
-
-namespace {
-
-gl::Program load_mark(gl::Shaders& shaders, const VoxelizerParams& params)
-{
-    const gl::Defines defines = {{"CONSERVATIVE", params.conservative ? "1" : "0"},
-                                 {"COUNT_FRAGMENTS", params.count_fragments ? "1" : "0"},
-                                 {"ATTRIBUTES", "0"}};
-    if (Voxelizer(params.voxelizer) == Voxelizer::compute) {
-        if (!params.conservative) throw std::runtime_error("conservative=off is for voxelizer=raster only");
-        return shaders.load({"04_conservative_voxelization/mark.comp"}, defines);
-    }
-    return shaders.load({"04_conservative_voxelization/conservative.vert",
-                         "04_conservative_voxelization/conservative.geom", "04_conservative_voxelization/mark.frag"},
-                        defines);
-}
-
-}  // namespace
-
-ConservativeVoxelizer::ConservativeVoxelizer(gl::Shaders& shaders, const VoxelGrid& grid, const VoxelizerParams& params)
-    : voxelizer_(Voxelizer(params.voxelizer)),
-      mark_(load_mark(shaders, params)),
+ConservativeVoxelizer::ConservativeVoxelizer(gl::Shaders& shaders)
+    : raster_mark_(shaders,
+                   {"04_conservative_voxelization/conservative.vert", "04_conservative_voxelization/conservative.geom",
+                    "04_conservative_voxelization/mark.frag"}),
+      mark_small_(shaders, {"04_conservative_voxelization/mark_small.comp"}),
+      mark_large_(shaders, {"04_conservative_voxelization/mark_large.comp"}),
       next_level_(shaders.load({"04_conservative_voxelization/occupancy_level.comp"})),
-      occupancy_(gl::texture_3d("occupancy", GL_R32UI, grid.size(), grid.levels())),
-      statistics_("voxel statistics", sizeof(shared::VoxelStatistics)),
-      column_plane_("column plane", glm::ivec2(std::max({grid.size().x, grid.size().y, grid.size().z})))
+      statistics_("voxel statistics", sizeof(shared::VoxelStatistics))
 {
-    if (params.count_fragments) fragment_counts_ = gl::texture_3d("fragment counts", GL_R32UI, grid.size());
+}
+
+void ConservativeVoxelizer::allocate(const VoxelGrid& grid, const VoxelizerParams& params)
+{
+    const glm::ivec3 size = grid.size();
+    if (!occupancy_ || occupancy_.size() != size || occupancy_.levels() != grid.levels()) {
+        occupancy_ = gl::texture_3d("occupancy", GL_R32UI, size, grid.levels());
+        column_plane_ = gl::Framebuffer("column plane", glm::ivec2(std::max({size.x, size.y, size.z})));
+    }
+    if (!params.count_fragments)
+        fragment_counts_ = {};
+    else if (!fragment_counts_ || fragment_counts_.size() != size)
+        fragment_counts_ = gl::texture_3d("fragment counts", GL_R32UI, size);
+}
+
+std::size_t ConservativeVoxelizer::fragment_count() const
+{
+    std::size_t sum = 0;
+    for (const shared::FragmentRange& range : ranges_) sum += range.count;
+    return sum;
 }
 
 std::vector<gl::Resource> ConservativeVoxelizer::resources() const
 {
-    std::vector<gl::Resource> resources = {occupancy_.resource()};
+    std::vector<gl::Resource> resources = {occupancy_.resource(), fragments_.resource()};
     if (fragment_counts_) resources.push_back(fragment_counts_.resource());
+    if (large_triangles_) resources.push_back(large_triangles_.resource());
     return resources;
 }
 
-bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
+void ConservativeVoxelizer::make_room(const std::vector<std::size_t>& fragments_of_materials)
 {
-    if (!made_from_.differs(scene.geometry_revision())) return false;
-    ++revision_;
-    // Clear what the last frame marked.
+    std::size_t total = 0;
+    ranges_.clear();
+    for (const std::size_t fragments : fragments_of_materials) {
+        ranges_.push_back({GLuint(total), GLuint(fragments), 0, 0});
+        total += fragments;
+    }
+    gl::require_storage("pairs of triangle and voxel", total, sizeof(glm::uvec2), "a smaller --set voxels=");
+    fragments_ = gl::Buffer("fragments", total * sizeof(glm::uvec2));
+    range_buffer_ = gl::Buffer("fragment ranges", ranges_);
+}
+
+void ConservativeVoxelizer::mark(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params)
+{
+    // Forget what the last run marked.
     occupancy_.clear();
     statistics_.clear();
     if (fragment_counts_) {
         fragment_counts_.clear();
         fragment_counts_.bind_image(1, 0, GL_READ_WRITE);
     }
+    for (shared::FragmentRange& range : ranges_) range.count = 0;
+    range_buffer_.write(0, range_buffer_.bytes(), ranges_.data());
 
     // Mark every voxel that a triangle overlaps.
-    statistics_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
+    grid.bind();
+    scene.bind_triangles();
     occupancy_.bind_image(0, 0, GL_READ_WRITE);
-    for_each_column(mark_, voxelizer_, scene, grid, column_plane_);
+    range_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentRangeBinding);
+    fragments_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentBinding);
+    statistics_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
+    const gl::Defines defines = {{"CONSERVATIVE", params.conservative ? "1" : "0"},
+                                 {"COUNT_FRAGMENTS", params.count_fragments ? "1" : "0"}};
+    if (Voxelizer(params.voxelizer) == Voxelizer::raster) {
+        const glm::ivec3 size = grid.size();
+        column_plane_.bind(glm::ivec2(std::max({size.x, size.y, size.z})));
+        scene.draw_geometry(raster_mark_.with(defines));
+    } else {
+        large_triangles_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLargeTriangleBinding);
+        const gl::Program &small = mark_small_.with(defines), &large_ones = mark_large_.with(defines);
+        small.use();
+        small.set("triangle_count", GLuint(scene.triangle_count()));
+        gl::dispatch_items(scene.triangle_count(), 64);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        // The fewer triangles are large, the more work groups each of them gets.
+        const std::size_t large = statistics_.read_at<shared::VoxelStatistics>(0).large;
+        const std::size_t groups_of_triangle = std::clamp<std::size_t>(1024 / std::max<std::size_t>(large, 1), 1, 64);
+        large_ones.use();
+        large_ones.set("groups_of_triangle", int(groups_of_triangle));
+        gl::dispatch_items(large * groups_of_triangle, 1);
+    }
+    ranges_ = range_buffer_.read<shared::FragmentRange>();
+}
+
+bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params)
+{
+    if (!made_from_.differs(scene.geometry_revision(), grid.revision(), params)) return false;
+    const bool compute = Voxelizer(params.voxelizer) == Voxelizer::compute;
+    if (compute && !params.conservative) throw std::runtime_error("conservative=off is for voxelizer=raster only");
+    ++revision_;
+    allocate(grid, params);
+    if (room_for_.differs(grid.revision())) {
+        // In the mean over all places a triangle meets 1 + its box's sides + its areas along the axes in voxels: the
+        // volume of its Minkowski sum with a voxel. Places that are not random, as of walls between two layers of
+        // voxels, may find more; a quarter is left for them.
+        const double side_m = double(grid.voxel_size_m());
+        const auto mean = [&](const MaterialUse& use) {
+            return double(use.triangles) + use.box_sides_m / side_m + use.seen_areas_m2 / (side_m * side_m);
+        };
+        double sum = 0.0;
+        for (const MaterialUse& use : scene.material_uses()) sum += mean(use);
+        const double share = std::min(1.25, double(gl::most_storage_bytes() / sizeof(glm::uvec2)) / std::max(sum, 1.0));
+        std::vector<std::size_t> fragments;
+        for (const MaterialUse& use : scene.material_uses()) fragments.push_back(std::size_t(share * mean(use)));
+        make_room(fragments);
+    }
+    if (compute && !large_triangles_)
+        large_triangles_ = gl::Buffer("large triangles", scene.triangle_count() * sizeof(GLuint));
+    mark(scene, grid, params);
+
+    // The counts are right even where there was no room for all.
+    const auto found_more = [](const shared::FragmentRange& range) { return range.count > range.capacity; };
+    if (std::any_of(ranges_.begin(), ranges_.end(), found_more)) {
+        std::vector<std::size_t> fragments;
+        for (const shared::FragmentRange& range : ranges_) fragments.push_back(range.count);
+        make_room(fragments);
+        mark(scene, grid, params);
+    }
 
     // Carry the marks to the coarser levels.
     next_level_.use();
@@ -95,8 +156,7 @@ bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid)
         const glm::ivec3 groups = (glm::max(grid.size() >> level, glm::ivec3(1)) + 3) / 4;
         glDispatchCompute(GLuint(groups.x), GLuint(groups.y), GLuint(groups.z));
     }
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                    GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     return true;
 }
 

@@ -9,27 +9,27 @@ namespace conebook {
 enum class Voxelizer : int { raster = 0, compute = 1 };
 
 struct VoxelizerParams {
-    // raster: geometry shader and rasterizer find the columns; compute: one work group a triangle. Same voxels.
-    int voxelizer = int(Voxelizer::raster);
+    // raster: geometry shader and rasterizer find the columns; compute: a thread or some work groups a triangle. Both
+    // give the same voxels; small triangles cost a software driver a third in compute shaders.
+    int voxelizer = int(Voxelizer::compute);
     // false: plain rasterization, a pixel's centre and one voxel in depth; leaves holes. For chapter 04's comparison.
     bool conservative = true;
     // Keep how many fragments fell into each voxel: fragment_counts(). Costs a volume; for chapter 04's views.
     bool count_fragments = false;
+    bool operator==(const VoxelizerParams&) const = default;
 };
 // Enters `voxelizer`; the other two are chapter 04's own business.
 void add_parameters(ParameterTable& table, VoxelizerParams& params);
 
-// Runs a program over all columns that the triangles touch; the part that chapters 04 and 05 share. `program` is made of
-// conservative.vert/.geom and a fragment shader, or of a compute shader, as `voxelizer` says.
-void for_each_column(const gl::Program& program, Voxelizer voxelizer, const GpuScene& scene, const VoxelGrid& grid,
-                     const gl::Framebuffer& column_plane);
-
 class ConservativeVoxelizer {
 public:
-    ConservativeVoxelizer(gl::Shaders& shaders, const VoxelGrid& grid, const VoxelizerParams& params);
+    explicit ConservativeVoxelizer(gl::Shaders& shaders);
 
-    // Fill occupancy() and its levels from the scene's triangles if these have changed; says whether they have.
-    bool run(const GpuScene& scene, const VoxelGrid& grid);
+    // Fill occupancy() and its levels, and the list of fragments, from the scene's triangles if these, the grid or a
+    // parameter have changed; says whether they have. Reads counters back to the CPU to size the list. Throws
+    // std::runtime_error when it would be longer than the driver's storage blocks, and for parameters that do not go
+    // together.
+    bool run(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params);
     void forget() { made_from_.forget(); }  // the next run fills them whatever has changed, for measuring
     Revision revision() const { return revision_; }
 
@@ -40,18 +40,27 @@ public:
     // overlaps the voxel; 0 is empty.
     const gl::Texture& occupancy() const { return occupancy_; }
     const gl::Buffer& statistics_buffer() const { return statistics_; }  // one shared::VoxelStatistics
-    const gl::Framebuffer& column_plane() const { return column_plane_; }
-    Voxelizer voxelizer() const { return voxelizer_; }
+
+    // Pairs of a triangle and a voxel that overlap, as uvec2(triangle, pack_voxel()), in any order within a material;
+    // where those of each material are; and how many there are in all.
+    const gl::Buffer& fragments() const { return fragments_; }
+    const std::vector<shared::FragmentRange>& fragment_ranges() const { return ranges_; }
+    std::size_t fragment_count() const;
     std::vector<gl::Resource> resources() const;
 
 private:
-    MadeFrom<Revision> made_from_;
+    void allocate(const VoxelGrid& grid, const VoxelizerParams& params);
+    void make_room(const std::vector<std::size_t>& fragments_of_materials);
+    void mark(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params);
+    MadeFrom<Revision, Revision, VoxelizerParams> made_from_;  // geometry, grid
+    MadeFrom<Revision> room_for_;                              // grid
     Revision revision_ = 0;
-    Voxelizer voxelizer_;
-    gl::Program mark_, next_level_;
+    gl::ProgramVariants raster_mark_, mark_small_, mark_large_;
+    gl::Program next_level_;
     gl::Texture occupancy_, fragment_counts_;
-    gl::Buffer statistics_;
-    gl::Framebuffer column_plane_;  // no attachments: the fragments write the volume
+    gl::Buffer statistics_, fragments_, range_buffer_, large_triangles_;
+    std::vector<shared::FragmentRange> ranges_;  // as the GPU left them
+    gl::Framebuffer column_plane_;               // no attachments: the fragments write the volume
 };
 
 // Shows voxels as cubes, seen by the camera.

@@ -1,12 +1,12 @@
 // 04_conservative_voxelization: triangles become voxels, and none of them slips through the grid.
 //
-// A voxel is occupied when it overlaps a triangle. The rasterizer, looking along the triangle's dominant axis, finds the
-// columns of the grid that the triangle may touch; an exact test decides for the one to three voxels of each column:
+// A voxel is occupied when it overlaps a triangle. Looking along the triangle's dominant axis, the rasterizer or a thread
+// finds the columns of the grid that the triangle may touch; an exact test decides for the one to three voxels of each:
 //
 //     overlap  <=>  no axis a of the 13 separates:  max_i a.p_i < -r(a)  or  min_i a.p_i > r(a),  r(a) = |a|_1 / 2
 //
 // Page: docs/04_conservative_voxelization.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "04_conservative_voxelization/conservative_voxelizer.hpp"
 #include "app/app.hpp"
 
@@ -32,25 +32,27 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    const VoxelGrid grid(scene.bounds(), grid_params);
-    ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
+    app.show_meanwhile(first_light(app, scene, display_params));
+    VoxelGrid grid(scene.bounds(), grid_params);
+    ConservativeVoxelizer voxelizer(app.shaders());
     VoxelViewPass voxel_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // Triangles -> occupied voxels, at all levels.
-        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid); });
+        grid.fit(scene.bounds(), grid_params);
+        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid, voxelizer_params); });
 
         // Occupied voxels -> picture.
-        if (app.shows("fragments")) view_params.level = 0;
-        view_params.heat = app.shows("fragments") ? &voxelizer.fragment_counts() : nullptr;
+        VoxelViewParams shown = view_params;
+        if (app.shows("fragments")) shown = {0, shown.shaded, &voxelizer.fragment_counts()};
         const gl::Buffer camera("camera", std::vector{app.camera()});
         const gl::Texture* linear = nullptr;
         app.pass("voxel view",
-                 [&] { linear = &voxel_view.run(grid, voxelizer.occupancy(), view_params, camera, app.size()); });
+                 [&] { linear = &voxel_view.run(grid, voxelizer.occupancy(), shown, camera, app.size()); });
         const gl::Texture& display = tone_map.run(*linear, app.view().encoding, display_params);
         app.show(*linear, display);
-    }
+    });
 
     // Count what was made.
     const auto counted = voxelizer.statistics_buffer().read_at<shared::VoxelStatistics>(0);
@@ -60,13 +62,14 @@ try {
         most = std::max(most, double(fragments));
     }
     const glm::ivec3 size = grid.size();
+    const double fragments = double(voxelizer.fragment_count());
     app.statistics().set_counts({{"grid x", double(size.x), "voxels"},
                                  {"grid y", double(size.y), "voxels"},
                                  {"grid z", double(size.z), "voxels"},
                                  {"voxel size", grid.voxel_size_m(), "m"},
                                  {"occupied voxels", occupied, ""},
-                                 {"fragments", double(counted.fragments), ""},
-                                 {"fragments per occupied voxel", counted.fragments / std::max(occupied, 1.0), ""},
+                                 {"fragments", fragments, ""},
+                                 {"fragments per occupied voxel", fragments / std::max(occupied, 1.0), ""},
                                  {"most fragments in a voxel", most, ""},
                                  {"triangles without area", double(counted.degenerate), ""}});
     for (const auto& part : {scene.resources(), voxelizer.resources()})

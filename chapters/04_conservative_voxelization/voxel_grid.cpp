@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace conebook {
 
@@ -35,9 +37,39 @@ shared::GridData make_grid(const Bounds& bounds, const VoxelGridParams& params)
     return grid;
 }
 
-VoxelGrid::VoxelGrid(const Bounds& bounds, const VoxelGridParams& params)
-    : data_(make_grid(bounds, params)), buffer_("voxel grid", sizeof data_, &data_)
+namespace {
+
+shared::GridData grid_within_limits(const Bounds& bounds, VoxelGridParams params, int volumes_along_x)
 {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
+    const auto longest_side = [&](const shared::GridData& grid) {
+        return std::max({grid.size.x * volumes_along_x, grid.size.y, grid.size.z});
+    };
+    const shared::GridData grid = make_grid(bounds, params);
+    if (longest_side(grid) <= most) return grid;
+    const int asked = params.voxels;
+    while (params.voxels > 4 && longest_side(make_grid(bounds, params)) > most) --params.voxels;
+    throw std::runtime_error("voxels=" + std::to_string(asked) + ": this driver's 3D textures have at most " +
+                             std::to_string(most) + " texels a side (GL_MAX_3D_TEXTURE_SIZE), " +
+                             std::to_string(longest_side(grid)) + " are needed; use at most voxels=" +
+                             std::to_string(params.voxels));
+}
+
+}  // namespace
+
+VoxelGrid::VoxelGrid(const Bounds& bounds, const VoxelGridParams& params, int volumes_along_x)
+    : volumes_along_x_(volumes_along_x)
+{
+    fit(bounds, params);
+}
+
+void VoxelGrid::fit(const Bounds& bounds, const VoxelGridParams& params)
+{
+    if (!made_from_.differs(bounds.min, bounds.max, params.voxels)) return;
+    ++revision_;
+    data_ = grid_within_limits(bounds, params, volumes_along_x_);
+    buffer_ = gl::Buffer("voxel grid", sizeof data_, &data_);
 }
 
 }  // namespace conebook

@@ -5,6 +5,7 @@
 #include "common/bindings.glsl"
 #include "common/voxel_structs.glsl"
 #include "gl/handles.hpp"
+#include "gl/made_from.hpp"
 #include "scene/scene.hpp"
 
 namespace conebook {
@@ -22,7 +23,12 @@ shared::GridData make_grid(const Bounds& bounds, const VoxelGridParams& params);
 // The grid as passes bind it: kGridBlock (shaders/common/voxel_grid.glsl).
 class VoxelGrid {
 public:
-    VoxelGrid(const Bounds& bounds, const VoxelGridParams& params);
+    // `volumes_along_x`: how many volumes of the grid's size passes put side by side along x in one texture. Throws
+    // std::runtime_error, which names the parameter and the limit, where the driver has no 3D textures of that size.
+    VoxelGrid(const Bounds& bounds, const VoxelGridParams& params, int volumes_along_x = 1);
+    // Another grid, if bounds or parameters are others than before.
+    void fit(const Bounds& bounds, const VoxelGridParams& params);
+    Revision revision() const { return revision_; }
     const shared::GridData& data() const { return data_; }
     glm::ivec3 size() const { return glm::ivec3(data_.size); }
     int levels() const { return data_.size.w; }
@@ -30,6 +36,9 @@ public:
     void bind() const { buffer_.bind(GL_UNIFORM_BUFFER, shared::kGridBlock); }
 
 private:
+    int volumes_along_x_;
+    MadeFrom<glm::vec3, glm::vec3, int> made_from_;  // bounds, voxels
+    Revision revision_ = 0;
     shared::GridData data_;
     gl::Buffer buffer_;
 };

@@ -6,7 +6,7 @@
 //     mean albedo = sum_i A_i rho_i / sum_i A_i      (the same for emission, normal and position)
 //
 // Page: docs/05_atomic_averaging.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "05_atomic_averaging/naive_average.hpp"
 #include "app/app.hpp"
 
@@ -34,7 +34,8 @@ try {
     int averaging = int(Averaging::sums);
     bool count_changes = false;
     ParameterTable parameters = parameters_of(grid_params, voxelizer_params, display_params);
-    parameters.add("averaging", averaging, {"sums", "compare_and_swap", "racing_store"},
+    parameters.add("averaging", averaging,
+                   {"sums", "compare_and_swap", "compare_and_swap_truncating", "racing_store"},
                    "how final and base_color are averaged; all later chapters use the sums");
     parameters.add("count_changes", count_changes, "with --frames: count what differs from the first frame (slow)");
 
@@ -50,47 +51,51 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    const VoxelGrid grid(scene.bounds(), grid_params);
-    ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
-    VoxelFaces faces(app.shaders(), grid, voxelizer);
-    std::vector<NaiveAverage> naive;
-    if (averaging != int(Averaging::sums)) naive.emplace_back(app.shaders(), scene, grid, Averaging(averaging));
+    app.show_meanwhile(first_light(app, scene, display_params));
+    VoxelGrid grid(scene.bounds(), grid_params);
+    ConservativeVoxelizer voxelizer(app.shaders());
+    VoxelFaces faces(app.shaders(), voxelizer);
+    NaiveAverage naive_average(app.shaders());
+    const NaiveAverage* naive = nullptr;  // what is shown instead of the sums
     FaceViewPass face_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
     ChangeCounter changes;
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // Triangles -> occupied voxels.
-        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid); });
+        grid.fit(scene.bounds(), grid_params);
+        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid, voxelizer_params); });
 
         // Occupied voxels -> list of faces -> sums over fragments -> means.
         app.pass("average", Scope::scene, [&] { return faces.run(scene, grid, voxelizer); });
-        for (NaiveAverage& average : naive) app.pass("naive average", [&] { average.run(scene, grid, voxelizer); });
+        naive = averaging != int(Averaging::sums) ? &naive_average : nullptr;
+        if (naive != nullptr)
+            app.pass("naive average", [&] { naive_average.run(scene, grid, voxelizer, Averaging(averaging)); });
 
-        if (count_changes) changes.look(faces, naive.empty() ? nullptr : &naive.front());
+        if (count_changes) changes.look(faces, naive);
 
         // Faces -> picture.
         const gl::Buffer camera("camera", std::vector{app.camera()});
         FaceQuantity quantity = quantity_of(app.view().name, faces);
         const bool shows_albedo = app.shows("final") || app.shows("voxels") || app.shows("base_color");
-        if (!naive.empty() && shows_albedo) quantity = {nullptr, 1, 0, 3, &naive.front().color()};
+        if (naive != nullptr && shows_albedo) quantity = {nullptr, 1, 0, 3, &naive->color()};
         if (app.shows("error")) {
             quantity.show = 4;
-            quantity.packed = naive.empty() ? nullptr : &naive.front().color();
+            quantity.packed = naive != nullptr ? &naive->color() : nullptr;
         }
         const gl::Texture* linear = nullptr;
         app.pass("voxel view", [&] {
             linear = &face_view.run(grid, voxelizer.occupancy(), faces, quantity, camera, app.size());
         });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     const shared::VoxelStatistics counted = faces.counted();
     std::vector<Count> counts = {{"occupied voxels", double(counted.voxels), ""},
                                  {"occupied faces", double(counted.faces), ""},
-                                 {"fragments", double(counted.fragments), ""},
+                                 {"fragments", double(voxelizer.fragment_count()), ""},
                                  {"triangles without area", double(counted.degenerate), ""}};
-    if (!naive.empty()) counts.push_back({"RMS error of the naive mean", rms_error(naive.front(), faces), ""});
+    if (naive != nullptr) counts.push_back({"RMS error of the naive mean", rms_error(*naive, faces), ""});
     if (count_changes) counts.push_back({"values that changed between frames", changes.most_changed(), ""});
     app.statistics().set_counts(counts);
     for (const auto& part : {scene.resources(), voxelizer.resources(), faces.resources()})

@@ -5,21 +5,19 @@
 
 namespace conebook {
 
-NaiveAverage::NaiveAverage(gl::Shaders& shaders, const GpuScene& scene, const VoxelGrid& grid, Averaging averaging)
-    : color_(gl::texture_3d("naive mean", GL_R32UI, grid.size()))
+NaiveAverage::NaiveAverage(gl::Shaders& shaders) : programs_(shaders, "05_atomic_averaging/naive_average.comp")
 {
-    gl::Defines defines = column_defines(scene);
-    defines["RACING_STORE"] = averaging == Averaging::racing_store ? "1" : "0";
-    program_ = shaders.load({"04_conservative_voxelization/conservative.vert",
-                             "04_conservative_voxelization/conservative.geom", "05_atomic_averaging/naive_average.frag"},
-                            defines);
 }
 
-void NaiveAverage::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
+void NaiveAverage::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
+                       Averaging averaging)
 {
+    if (!color_ || color_.size() != grid.size()) color_ = gl::texture_3d("naive mean", GL_R32UI, grid.size());
     color_.clear();
     color_.bind_image(0, 0, GL_READ_WRITE);
-    for_each_column(program_, Voxelizer::raster, scene, grid, voxelizer.column_plane());
+    programs_.run(scene, grid, voxelizer,
+                  {{"RACING_STORE", averaging == Averaging::racing_store ? "1" : "0"},
+                   {"TRUNCATING", averaging == Averaging::compare_and_swap_truncating ? "1" : "0"}});
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 

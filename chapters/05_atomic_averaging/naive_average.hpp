@@ -1,4 +1,4 @@
-// Two other ways to average, and how far they are from the right answer. Only chapter 05 uses them.
+// Other ways to average, and how far they are from the right answer. Only chapter 05 uses them.
 #pragma once
 
 #include "05_atomic_averaging/voxel_faces.hpp"
@@ -6,18 +6,18 @@
 namespace conebook {
 
 // How chapter 05 averages, for comparison; later chapters use the sums.
-enum class Averaging : int { sums = 0, compare_and_swap = 1, racing_store = 2 };
+enum class Averaging : int { sums = 0, compare_and_swap = 1, compare_and_swap_truncating = 2, racing_store = 3 };
 
 // Into one RGBA8 texel a voxel; both sides of a sheet share it. Every fragment weighs the same.
 class NaiveAverage {
 public:
-    // `averaging`: compare_and_swap or racing_store.
-    NaiveAverage(gl::Shaders& shaders, const GpuScene& scene, const VoxelGrid& grid, Averaging averaging);
-    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    explicit NaiveAverage(gl::Shaders& shaders);
+    // `averaging`: any but the sums.
+    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer, Averaging averaging);
     const gl::Texture& color() const { return color_; }  // r32ui holding RGBA8, A the number of fragments
 
 private:
-    gl::Program program_;
+    FragmentPrograms programs_;
     gl::Texture color_;
 };
 

@@ -12,23 +12,33 @@ constexpr int kBlock = 4;  // voxels along a side of the blocks that the list is
 
 glm::ivec3 blocks_of(const VoxelGrid& grid) { return (grid.size() + kBlock - 1) / kBlock; }
 
-gl::Buffer dispatch_of(const std::string& label, std::size_t items)
-{
-    return gl::Buffer(label, std::vector<GLuint>{gl::group_count(items, 64), 1, 1});
-}
-
-// Enough for `count` items; buffers only grow, so that a changing scene does not allocate every frame.
+// Buffers only grow, so that a changing scene does not allocate every frame.
 void grow(gl::Buffer& buffer, const std::string& label, std::size_t bytes)
 {
     if (!buffer || buffer.bytes() < bytes) buffer = gl::Buffer(label, bytes);
 }
 
-}  // namespace
+constexpr std::size_t kBytesOfSums = 2 * shared::kSumCount * sizeof(GLuint);  // of a face
 
-gl::Defines column_defines(const GpuScene& scene)
+gl::Buffer dispatch_of(const std::string& label, std::size_t items)
 {
-    return {{"CONSERVATIVE", "1"}, {"ATTRIBUTES", "1"}, {"TEXTURES", scene.has_textures() ? "1" : "0"}};
+    return gl::Buffer(label, std::vector{gl::group_counts(items, 64)});
 }
+
+gl::Defines voxel_material_defines(const Material& m, bool has_vertex_alpha)
+{
+    const auto flag = [](bool on) { return on ? std::string("1") : std::string("0"); };
+    return {{"BASE_COLOR_TEXTURE", flag(m.base_color_texture.present())},
+            {"METALLIC_ROUGHNESS_TEXTURE", flag(m.metallic_roughness_texture.present())},
+            {"EMISSION_TEXTURE", flag(m.emission_texture.present())},
+            {"SPECULAR_TEXTURE", flag(m.specular_texture.present())},
+            {"SPECULAR_COLOR_TEXTURE", flag(m.specular_color_texture.present())},
+            {"COVERAGE_TEXTURE", flag(m.alpha_mode == AlphaMode::mask && m.base_color_texture.present())},
+            {"VERTEX_ALPHA", flag(m.alpha_mode == AlphaMode::mask && has_vertex_alpha)},
+            {"EMISSION", flag(m.unlit || m.emission != glm::vec3(0.0f))}};
+}
+
+}  // namespace
 
 std::vector<Need> voxel_material_needs(const GpuScene& scene)
 {
@@ -38,39 +48,56 @@ std::vector<Need> voxel_material_needs(const GpuScene& scene)
             {"emission in voxels", emission, emission ? "materials shine" : "no material shines: no sums for it"}};
 }
 
-VoxelFaces::VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
-    : shaders_(&shaders),
-      count_blocks_(shaders.load({"05_atomic_averaging/count_blocks.comp"})),
+const gl::Program& FragmentPrograms::of(const GpuScene& scene, std::size_t material, const gl::Defines& more)
+{
+    const bool vertex_alpha = scene.material_uses()[material].vertex_alpha;
+    gl::Defines defines = voxel_material_defines(scene.materials()[material], vertex_alpha);
+    defines.insert(more.begin(), more.end());
+    gl::Program& program = programs_[defines];
+    if (program.id() == 0) program = shaders_->load({file_}, defines);
+    return program;
+}
+
+void FragmentPrograms::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
+                           const gl::Defines& more)
+{
+    grid.bind();
+    scene.bind_triangles();
+    voxelizer.fragments().bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentBinding);
+    scene.for_each_material([&](std::size_t i) {
+        const shared::FragmentRange& range = voxelizer.fragment_ranges()[i];
+        if (range.count == 0) return;
+        const gl::Program& program = of(scene, i, more);
+        program.use();
+        program.set("first_fragment", range.begin);
+        program.set("fragment_count", range.count);
+        gl::dispatch_items(range.count, 64);
+    });
+}
+
+VoxelFaces::VoxelFaces(gl::Shaders& shaders, const ConservativeVoxelizer& voxelizer)
+    : count_blocks_(shaders.load({"05_atomic_averaging/count_blocks.comp"})),
       scan_blocks_(shaders.load({"05_atomic_averaging/scan_blocks.comp"})),
       write_list_(shaders.load({"05_atomic_averaging/write_list.comp"})),
       resolve_(shaders.load({"05_atomic_averaging/resolve.comp"})),
-      face_index_(gl::texture_3d("face index", GL_R32UI, grid.size())),
+      accumulate_(shaders, "05_atomic_averaging/accumulate.comp"),
       statistics_(&voxelizer.statistics_buffer())
 {
+}
+
+void VoxelFaces::allocate(const VoxelGrid& grid)
+{
+    if (face_index_ && face_index_.size() == grid.size()) return;
+    face_index_ = gl::texture_3d("face index", GL_R32UI, grid.size());
     const glm::ivec3 blocks = blocks_of(grid);
     block_counts_ = gl::Buffer("block counts", std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z) *
                                                    4 * sizeof(GLuint));
 }
 
-const gl::Program& VoxelFaces::accumulate_program(const GpuScene& scene, Voxelizer voxelizer)
-{
-    gl::Program& program = accumulate_[{scene.has_textures(), scene.has_emission()}];
-    if (program.id() != 0) return program;
-    gl::Defines defines = column_defines(scene);
-    defines["EMISSION"] = scene.has_emission() ? "1" : "0";
-    program = voxelizer == Voxelizer::raster
-                  ? shaders_->load({"04_conservative_voxelization/conservative.vert",
-                                    "04_conservative_voxelization/conservative.geom",
-                                    "05_atomic_averaging/accumulate.frag"},
-                                   defines)
-                  : shaders_->load({"05_atomic_averaging/accumulate.comp"}, defines);
-    return program;
-}
-
 void VoxelFaces::make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer)
 {
     const glm::ivec3 blocks = blocks_of(grid);
-    const GLuint block_groups = gl::group_count(std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z), 64);
+    const std::size_t block_count = std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z);
     grid.bind();
     voxelizer.occupancy().bind(shared::kOccupancyUnit);
     statistics_->bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
@@ -78,15 +105,17 @@ void VoxelFaces::make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& 
 
     // Count, by blocks.
     count_blocks_.use();
-    glDispatchCompute(block_groups, 1, 1);
+    gl::dispatch_items(block_count, 64);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 
     // Counts to places, and the totals.
     scan_blocks_.use();
     glDispatchCompute(1, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     counted_ = statistics_->read_at<shared::VoxelStatistics>(0);
     if (counted_.faces >= (1u << 26))
         throw std::runtime_error("the voxels have more than 2^26 faces; use a smaller --set voxels=");
+    gl::require_storage("faces of voxels, their sums", counted_.faces, kBytesOfSums, "a smaller --set voxels=");
 
     // Write the lists.
     grow(voxel_list_, "voxel list", counted_.voxels * sizeof(GLuint));
@@ -98,7 +127,7 @@ void VoxelFaces::make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& 
     voxel_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelListBinding);
     face_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceListBinding);
     write_list_.use();
-    glDispatchCompute(block_groups, 1, 1);
+    gl::dispatch_items(block_count, 64);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
                     GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -107,22 +136,22 @@ bool VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const Conserv
 {
     if (!made_from_.differs(voxelizer.revision())) return false;
     ++revision_;
+    allocate(grid);
     make_lists(grid, voxelizer);
 
     // Add up the fragments of every face.
-    grow(sums_, "face sums", counted_.faces * 2 * shared::kSumCount * sizeof(GLuint));
+    grow(sums_, "face sums", counted_.faces * kBytesOfSums);
     grow(faces_, "faces", counted_.faces * sizeof(shared::VoxelFace));
     sums_.clear();
     sums_.bind(GL_SHADER_STORAGE_BUFFER, shared::kSumBinding);
     face_index_.bind_image(0, 0, GL_READ_ONLY);
-    for_each_column(accumulate_program(scene, voxelizer.voxelizer()), voxelizer.voxelizer(), scene, grid, voxelizer.column_plane());
+    accumulate_.run(scene, grid, voxelizer);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 
     // Divide.
     bind();
     resolve_.use();
-    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, face_groups_.id());
-    glDispatchComputeIndirect(0);
+    gl::dispatch_items(counted_.faces, 64);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     return true;
 }
@@ -150,7 +179,7 @@ FaceViewPass::FaceViewPass(gl::Shaders& shaders)
 const gl::Texture& FaceViewPass::run(const VoxelGrid& grid, const gl::Texture& occupancy, const VoxelFaces& faces,
                                      const FaceQuantity& quantity, const gl::Buffer& camera, glm::ivec2 size)
 {
-    gl::fit_to_pixels(color_, framebuffer_, "face view", GL_RGBA16F, size);
+    gl::fit_to_pixels(color_, framebuffer_, "face view", GL_RGBA32F, size);
     grid.bind();
     camera.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     occupancy.bind(shared::kOccupancyUnit);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 
 #include "04_conservative_voxelization/conservative_voxelizer.hpp"
 #include "app/statistics.hpp"
@@ -9,8 +10,22 @@
 
 namespace conebook {
 
-// Defines of programs that run over columns and need the scene's materials.
-gl::Defines column_defines(const GpuScene& scene);
+// A compute shader that runs over the list of fragments, one thread a fragment, material by material, since only one
+// material's textures are bound at a time; in variants that read no more than the material has.
+class FragmentPrograms {
+public:
+    // `shaders` must outlive it.
+    FragmentPrograms(gl::Shaders& shaders, const std::string& file) : shaders_(&shaders), file_(file) {}
+    // `more`: defines beside those of the materials.
+    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
+             const gl::Defines& more = {});
+
+private:
+    const gl::Program& of(const GpuScene& scene, std::size_t material, const gl::Defines& more);
+    gl::Shaders* shaders_;
+    std::string file_;
+    std::map<gl::Defines, gl::Program> programs_;
+};
 
 // What the programs that average are made without where the scene has none of it.
 std::vector<Need> voxel_material_needs(const GpuScene& scene);
@@ -19,11 +34,12 @@ std::vector<Need> voxel_material_needs(const GpuScene& scene);
 class VoxelFaces {
 public:
     // `shaders` and `voxelizer` must outlive it.
-    VoxelFaces(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
+    VoxelFaces(gl::Shaders& shaders, const ConservativeVoxelizer& voxelizer);
 
     // Make the lists from voxelizer.occupancy(), add up all fragments, divide. Reads two counters back to the CPU to
-    // size the buffers; throws std::runtime_error when the scene has more faces than an index holds (2^26).
-    // Does nothing while the voxelizer has not run again; says whether it did.
+    // size the buffers; throws std::runtime_error when there are more faces than an index (2^26) or a storage block
+    // holds. Does nothing while the voxelizer has not run again; says whether it did.
+    // `voxelizer`: the one of the constructor.
     bool run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
 
     // Changes whenever the lists or the means do.
@@ -45,11 +61,10 @@ public:
     void bind() const;
 
 private:
+    void allocate(const VoxelGrid& grid);
     void make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
-    const gl::Program& accumulate_program(const GpuScene& scene, Voxelizer voxelizer);
-    gl::Shaders* shaders_;  // of the caller, for the programs below
     gl::Program count_blocks_, scan_blocks_, write_list_, resolve_;
-    std::map<std::pair<bool, bool>, gl::Program> accumulate_;  // (textures, emission): no more than the scene needs
+    FragmentPrograms accumulate_;
     gl::Texture face_index_;
     gl::Buffer block_counts_, voxel_list_, face_list_, sums_, faces_, face_groups_, voxel_groups_;
     const gl::Buffer* statistics_;  // of the voxelizer
@@ -71,7 +86,7 @@ struct FaceQuantity {
 class FaceViewPass {
 public:
     explicit FaceViewPass(gl::Shaders& shaders);
-    // RGBA16F, alpha 0 where no voxel is met.
+    // RGBA32F, alpha 0 where no voxel is met.
     const gl::Texture& run(const VoxelGrid& grid, const gl::Texture& occupancy, const VoxelFaces& faces,
                            const FaceQuantity& quantity, const gl::Buffer& camera, glm::ivec2 size);
 

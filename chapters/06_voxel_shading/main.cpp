@@ -6,7 +6,7 @@
 //
 // with the visibility V from shadow maps or from rays through the voxels themselves.
 // Page: docs/06_voxel_shading.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "06_voxel_shading/voxel_shading.hpp"
 #include "app/app.hpp"
 #include "app/needs.hpp"
@@ -34,22 +34,24 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    const VoxelGrid grid(scene.bounds(), grid_params);
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
-    ConservativeVoxelizer voxelizer(app.shaders(), grid, voxelizer_params);
-    VoxelFaces faces(app.shaders(), grid, voxelizer);
+    app.show_meanwhile(first_light(app, scene, display_params));
+    VoxelGrid grid(scene.bounds(), grid_params);
+    ShadowMaps shadow_maps(app.shaders());
+    ConservativeVoxelizer voxelizer(app.shaders());
+    VoxelFaces faces(app.shaders(), voxelizer);
     VoxelShading shading(app.shaders());
     FaceViewPass face_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // snippet: frame
         // What the lights see, unless rays through the voxels are to tell.
         if (shading_params.voxel_shadows == int(VoxelShadows::map))
-            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // Triangles -> occupied voxels -> list of faces with their mean material.
-        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid); });
+        grid.fit(scene.bounds(), grid_params);
+        app.pass("voxelize", Scope::scene, [&] { return voxelizer.run(scene, grid, voxelizer_params); });
         app.pass("average", Scope::scene, [&] { return faces.run(scene, grid, voxelizer); });
 
         // Material and lights -> radiance of every face.
@@ -71,7 +73,7 @@ try {
             linear = &face_view.run(grid, voxelizer.occupancy(), faces, quantity, camera, app.size());
         });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     app.statistics().set_counts({{"occupied voxels", double(faces.voxel_count()), ""},
                                  {"occupied faces", double(faces.face_count()), ""}});

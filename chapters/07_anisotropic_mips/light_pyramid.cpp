@@ -54,7 +54,7 @@ void OccupiedLevels::run(const VoxelGrid& grid, const VoxelFaces& faces)
     }
     lists_ = gl::Buffer("occupied voxels of all levels", std::max<std::size_t>(total, 1) * sizeof(GLuint));
     std::vector<glm::uvec4> levels(std::size_t(grid.levels()), glm::uvec4(0, 1, 1, 0));
-    levels[0] = {gl::group_count(voxels, 64), 1, 1, voxels};
+    levels[0] = glm::uvec4(gl::group_counts(voxels, 64), voxels);
     levels_ = gl::Buffer("occupied voxels by level", levels);
     const gl::Buffer claimed("claimed voxels", (cells(1) / 32 + 1) * sizeof(GLuint));
 
@@ -65,7 +65,7 @@ void OccupiedLevels::run(const VoxelGrid& grid, const VoxelFaces& faces)
         (level == 1 ? faces.voxel_list() : lists_).bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelListBinding);
         parents_.set("finer_begin", begin_[std::size_t(level - 1)]);
         dispatch(parents_, level, level - 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
 }
 
@@ -80,29 +80,36 @@ void OccupiedLevels::dispatch(const gl::Program& program, int level, int items_o
     glDispatchComputeIndirect(GLintptr(std::size_t(items_of) * sizeof(glm::uvec4)));
 }
 
-LightPyramid::LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params)
-    : format_(LightFormat(params.format)),
-      base_(shaders.load({"07_anisotropic_mips/light_base.comp"}, storing_defines(params))),
-      next_level_(shaders.load({"07_anisotropic_mips/light_level.comp"}, storing_defines(params))),
+LightPyramid::LightPyramid(gl::Shaders& shaders)
+    : unit_(shaders, {"07_anisotropic_mips/light_unit.comp"}),
+      base_(shaders, {"07_anisotropic_mips/light_base.comp"}),
+      next_level_(shaders, {"07_anisotropic_mips/light_level.comp"}),
       occupied_(shaders),
       scale_("light scale", std::vector{glm::vec4(1.0f)})
 {
-    constexpr GLenum kFormats[] = {GL_RGBA16F, GL_RGBA8, GL_R11F_G11F_B10F};
-    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
-    light_ = gl::texture_3d("light pyramid", kFormats[params.format], size, grid.levels());
-    light_.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
-    if (format_ == LightFormat::rgba8) largest_radiance_ = shaders.load({"07_anisotropic_mips/largest_radiance.comp"});
-    if (format_ == LightFormat::r11g11b10f) {
-        coverage_ = gl::texture_3d("coverage pyramid", GL_R8, size, grid.levels());
-        coverage_.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
-    }
 }
 
-void LightPyramid::prepare(const VoxelGrid& grid, const VoxelFaces& faces)
+void LightPyramid::prepare(const VoxelGrid& grid, const VoxelFaces& faces, LightFormat format)
 {
-    if (!prepared_for_.differs(faces.revision())) return;
+    if (!prepared_for_.differs(faces.revision(), format)) return;
+    constexpr GLenum kFormats[] = {GL_RGBA16F, GL_RGBA8, GL_R11F_G11F_B10F};
+    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
+    const auto fit = [&](gl::Texture& texture, const char* label, GLenum texels) {
+        if (texture && texture.size() == size && texture.levels() == grid.levels() && texture.format() == texels)
+            return;
+        texture = gl::texture_3d(label, texels, size, grid.levels());
+        texture.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
+    };
+    fit(light_, "light pyramid", kFormats[int(format)]);
     light_.clear();
-    if (coverage_) coverage_.clear();
+    if (format == LightFormat::r11g11b10f) {
+        fit(coverage_, "coverage pyramid", GL_R8);
+        coverage_.clear();
+    } else {
+        coverage_ = {};
+    }
+    if (format != format_) scale_ = gl::Buffer("light scale", std::vector{glm::vec4(1.0f)});
+    format_ = format;
     occupied_.run(grid, faces);
 }
 
@@ -113,6 +120,12 @@ void LightPyramid::bind() const
     scale_.bind(GL_UNIFORM_BUFFER, shared::kPyramidBlock);
 }
 
+void LightPyramid::bind_as_emission() const
+{
+    light_.bind(GLuint(shared::kEmissionAtlasUnit));
+    scale_.bind(GL_UNIFORM_BUFFER, shared::kEmissionPyramidBlock);
+}
+
 void LightPyramid::bind_level(int level) const
 {
     light_.bind_image(0, level, GL_WRITE_ONLY);
@@ -120,32 +133,35 @@ void LightPyramid::bind_level(int level) const
 }
 
 bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& reflected, Revision revision,
-                       LightPart part)
+                       const PyramidParams& params, LightPart part)
 {
-    if (!made_from_.differs(faces.revision(), reflected.id(), revision, part)) return false;
+    if (!made_from_.differs(faces.revision(), reflected.id(), revision, part, params)) return false;
     ++revision_;
-    prepare(grid, faces);
+    prepare(grid, faces, LightFormat(params.format));
+    const gl::Defines storing = storing_defines(params);
     constexpr GLbitfield kWrittenImage = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
     grid.bind();
     faces.bind();
     bind();
     reflected.bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBinding);
     constexpr glm::vec2 kWeights[] = {{1, 1}, {1, 0}, {0, 1}, {0, 0}};  // of what is reflected, and emitted
-    if (format_ == LightFormat::rgba8) {
-        constexpr glm::vec4 kLeast(1e-6f);  // so that what is black is not divided by 0
-        scale_.write(0, sizeof kLeast, &kLeast);
-        largest_radiance_.set("part", kWeights[int(part)]);
-        scale_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightScaleBinding);
-        largest_radiance_.use();
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
-        glDispatchComputeIndirect(0);
-        glMemoryBarrier(GL_UNIFORM_BARRIER_BIT);
-    }
+
+    // The unit that radiance is kept in.
+    const glm::vec4 least(format_ == LightFormat::rgba8 ? 1e-6f : 1.0f);  // what is black is not divided by 0
+    scale_.write(0, sizeof least, &least);
+    const gl::Program& unit = unit_.with(storing);
+    unit.set("part", kWeights[int(part)]);
+    scale_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightScaleBinding);
+    unit.use();
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
+    glDispatchComputeIndirect(0);
+    glMemoryBarrier(GL_UNIFORM_BARRIER_BIT);
 
     // Finest level: occupied voxels only, the others stay empty.
     bind_level(0);
-    base_.set("part", kWeights[int(part)]);
-    base_.use();
+    const gl::Program& base = base_.with(storing);
+    base.set("part", kWeights[int(part)]);
+    base.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.voxel_groups().id());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(kWrittenImage);
@@ -153,7 +169,7 @@ bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
     // Each level from the one below, where there is something.
     for (int level = 1; level < grid.levels(); ++level) {
         bind_level(level);
-        occupied_.dispatch(next_level_, level);
+        occupied_.dispatch(next_level_.with(storing), level);
         glMemoryBarrier(kWrittenImage);
     }
     return true;
@@ -174,7 +190,7 @@ const gl::Texture& PyramidViewPass::run(const VoxelGrid& grid, const gl::Texture
                                         bool show_coverage, const gl::Buffer& camera, glm::ivec2 size,
                                         const LightPyramid* emission)
 {
-    gl::fit_to_pixels(color_, framebuffer_, "pyramid view", GL_RGBA16F, size);
+    gl::fit_to_pixels(color_, framebuffer_, "pyramid view", GL_RGBA32F, size);
     grid.bind();
     camera.bind(GL_UNIFORM_BUFFER, shared::kCameraBlock);
     occupancy.bind(shared::kOccupancyUnit);
@@ -184,7 +200,7 @@ const gl::Texture& PyramidViewPass::run(const VoxelGrid& grid, const gl::Texture
     program.set("direction", params.direction);
     program.set("show_coverage", show_coverage);
     program.set("with_emission", emission != nullptr);
-    if (emission != nullptr) emission->bind_as_emission();
+    (emission != nullptr ? emission : &pyramid)->bind_as_emission();
     gl::draw_pixels(program, framebuffer_, no_vertices_, size);
     return color_;
 }

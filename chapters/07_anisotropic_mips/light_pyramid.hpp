@@ -10,8 +10,9 @@ namespace conebook {
 // eight.
 enum class Directions : int { per_face = 0, anisotropic = 1, isotropic = 2 };
 
-// rgba16f: 8 bytes a texel. rgba8: 4, radiance as a share of the largest that any face sends, so that nothing is cut
-// off and what is darker than 1/510 of it is lost. r11g11b10f: 5, 6 or 5 bits of precision for radiance, 8 for coverage.
+// rgba16f: 8 bytes a texel; radiance beyond half floats is kept in units of a power of two. rgba8: 4, radiance as a share
+// of the largest that any face sends, so that nothing is cut off and what is darker than 1/510 of it is lost.
+// r11g11b10f: 5, 6 or 5 bits of precision for radiance, 8 for coverage.
 enum class LightFormat : int { rgba16f = 0, rgba8 = 1, r11g11b10f = 2 };
 
 // What of the light that leaves the faces a pyramid holds; their coverage it always does.
@@ -20,6 +21,7 @@ enum class LightPart { all, reflected, emitted, none };
 struct PyramidParams {
     int directions = int(Directions::per_face);
     int format = int(LightFormat::rgba16f);
+    bool operator==(const PyramidParams&) const = default;
 };
 void add_parameters(ParameterTable& table, PyramidParams& params);
 
@@ -43,19 +45,19 @@ private:
 
 class LightPyramid {
 public:
-    LightPyramid(gl::Shaders& shaders, const VoxelGrid& grid, const PyramidParams& params);
+    explicit LightPyramid(gl::Shaders& shaders);
 
     // All levels from what the faces reflect (vec4 a face: rgb in W/(sr m^2), of that revision) and emit, `part` of it; if
     // any of that has changed. Says whether it has.
     bool run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& reflected, Revision revision,
-             LightPart part = LightPart::all);
+             const PyramidParams& params, LightPart part = LightPart::all);
     Revision revision() const { return revision_; }
 
     // kLightAtlasUnit, kCoverageAtlasUnit and uniform block 4, for shaders that include 07_anisotropic_mips/pyramid.glsl.
     void bind() const;
-    // kEmissionAtlasUnit, beside another one that is bound as above; format rgba16f.
-    void bind_as_emission() const { light_.bind(GLuint(shared::kEmissionAtlasUnit)); }
-    LightFormat format() const { return format_; }
+    // kEmissionAtlasUnit and uniform block 5, beside another one that is bound as above; format rgba16f.
+    void bind_as_emission() const;
+    LightFormat format() const { return format_; }  // of the last run
     // For programs that include 07_anisotropic_mips/pyramid.glsl.
     gl::Defines defines() const;
     // Six times the grid's width (face * size.x + x), all levels of the grid; see 07_anisotropic_mips/pyramid.glsl.
@@ -68,15 +70,15 @@ public:
     }
 
 private:
-    // When other voxels become occupied: empties all levels and lists what they will hold.
-    void prepare(const VoxelGrid& grid, const VoxelFaces& faces);
+    // When other voxels become occupied, or texels are to be others: empties all levels and lists what they will hold.
+    void prepare(const VoxelGrid& grid, const VoxelFaces& faces, LightFormat format);
     void bind_level(int level) const;
-    MadeFrom<Revision> prepared_for_;                        // faces
+    MadeFrom<Revision, LightFormat> prepared_for_;  // faces
     // Faces, what they reflect: which buffer, for each counts its own revisions.
-    MadeFrom<Revision, GLuint, Revision, LightPart> made_from_;
+    MadeFrom<Revision, GLuint, Revision, LightPart, PyramidParams> made_from_;
     Revision revision_ = 0;
-    LightFormat format_;
-    gl::Program largest_radiance_, base_, next_level_;
+    LightFormat format_ = LightFormat::rgba16f;
+    gl::ProgramVariants unit_, base_, next_level_;
     OccupiedLevels occupied_;
     gl::Texture light_, coverage_;
     gl::Buffer scale_;
@@ -90,7 +92,7 @@ void add_parameters(ParameterTable& table, PyramidViewParams& params);
 class PyramidViewPass {
 public:
     explicit PyramidViewPass(gl::Shaders& shaders);
-    // RGBA16F, alpha 0 where no voxel is met. `show_coverage`: A as grey instead of radiance. `emission` is added.
+    // RGBA32F, alpha 0 where no voxel is met. `show_coverage`: A as grey instead of radiance. `emission` is added.
     const gl::Texture& run(const VoxelGrid& grid, const gl::Texture& occupancy, const LightPyramid& pyramid, int level,
                            const PyramidViewParams& params, bool show_coverage, const gl::Buffer& camera,
                            glm::ivec2 size, const LightPyramid* emission = nullptr);

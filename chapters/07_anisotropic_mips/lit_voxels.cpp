@@ -13,19 +13,20 @@ void add_parameters(ParameterTable& table, LitVoxelParams& params)
 
 LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params)
     : params_(params),
-      grid_(scene.bounds(), params.grid),
-      voxelizer_(shaders, grid_, params.voxelizer),
-      faces_(shaders, grid_, voxelizer_),
+      grid_(scene.bounds(), params.grid, shared::kFaceCount),
+      voxelizer_(shaders),
+      faces_(shaders, voxelizer_),
       shading_(shaders),
-      pyramid_(shaders, grid_, params.pyramid)
+      pyramid_(shaders)
 {
 }
 
 void LitVoxels::shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps)
 {
     // Triangles -> occupied voxels -> mean material of their faces; all that follows from them runs when they do.
+    grid_.fit(scene.bounds(), params_.grid);
     if (params_.update == int(Update::always)) voxelizer_.forget();
-    app.pass("voxelize", Scope::scene, [&] { return voxelizer_.run(scene, grid_); });
+    app.pass("voxelize", Scope::scene, [&] { return voxelizer_.run(scene, grid_, params_.voxelizer); });
     app.pass("average", Scope::scene, [&] { return faces_.run(scene, grid_, voxelizer_); });
     // Material and lights -> radiance of the faces.
     app.pass("voxel shading", Scope::light,
@@ -35,8 +36,9 @@ void LitVoxels::shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_
 void LitVoxels::filter_coverage(App& app)
 {
     app.pass("coverage of voxels", Scope::scene, [&] {
-        return covered_by_.differs(faces_.revision()) &&
-               pyramid_.run(grid_, faces_, shading_.radiance(), shading_.revision(), LightPart::none);
+        if (!covered_by_.differs(faces_.revision(), params_.pyramid)) return false;
+        ++coverage_revision_;
+        return pyramid_.run(grid_, faces_, shading_.radiance(), shading_.revision(), params_.pyramid, LightPart::none);
     });
 }
 
@@ -44,7 +46,8 @@ void LitVoxels::filter(App& app, LightPart part) { filter(app, shading_.radiance
 
 void LitVoxels::filter(App& app, const gl::Buffer& reflected, Revision revision, LightPart part)
 {
-    app.pass("light pyramid", Scope::light, [&] { return pyramid_.run(grid_, faces_, reflected, revision, part); });
+    app.pass("light pyramid", Scope::light,
+             [&] { return pyramid_.run(grid_, faces_, reflected, revision, params_.pyramid, part); });
 }
 
 std::vector<gl::Resource> LitVoxels::resources() const
@@ -65,7 +68,7 @@ std::vector<Count> LitVoxels::counts() const
             {"voxel size", grid_.voxel_size_m(), "m"},
             {"occupied voxels", double(counted.voxels), ""},
             {"occupied faces", double(counted.faces), ""},
-            {"fragments", double(counted.fragments), ""},
+            {"fragments", double(voxelizer_.fragment_count()), ""},
             {"triangles without area", double(counted.degenerate), ""}};
 }
 

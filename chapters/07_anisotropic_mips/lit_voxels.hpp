@@ -20,6 +20,7 @@ void add_parameters(ParameterTable& table, LitVoxelParams& params);
 
 class LitVoxels {
 public:
+    // `params` must outlive this.
     LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params);
     // What the faces reflect of the light that comes straight from the lights.
     void shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps);
@@ -34,6 +35,8 @@ public:
     const VoxelFaces& faces() const { return faces_; }
     const VoxelShading& shading() const { return shading_; }
     const LightPyramid& pyramid() const { return pyramid_; }
+    // Changes whenever what filter_coverage() makes does.
+    Revision coverage_revision() const { return coverage_revision_; }
     std::vector<gl::Resource> resources() const;
     std::vector<Count> counts() const;
 
@@ -44,7 +47,8 @@ private:
     VoxelFaces faces_;
     VoxelShading shading_;
     LightPyramid pyramid_;
-    MadeFrom<Revision> covered_by_;  // faces
+    MadeFrom<Revision, PyramidParams> covered_by_;  // faces
+    Revision coverage_revision_ = 0;
 };
 
 }  // namespace conebook

@@ -6,7 +6,7 @@
 //
 // C: radiance times coverage, A: covered share of the cross-section; A is filtered as C is.
 // Page: docs/07_anisotropic_mips.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "07_anisotropic_mips/lit_voxels.hpp"
 #include "app/needs.hpp"
 
@@ -30,16 +30,17 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    app.show_meanwhile(first_light(app, scene, display_params));
+    ShadowMaps shadow_maps(app.shaders());
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     PyramidViewPass pyramid_view(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // snippet: frame
         // What the lights see, for the voxels.
         if (voxel_params.shading.voxel_shadows == int(VoxelShadows::map))
-            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
         voxels.shade(app, scene, shadow_maps);
@@ -54,7 +55,7 @@ try {
                                        level_params.level, direction_params, app.shows("coverage"), camera, app.size());
         });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     app.statistics().set_counts(voxels.counts());
     for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources()})

@@ -29,8 +29,8 @@ void add_parameters(ParameterTable& table, DiffuseConeParams& params)
 
 gl::Defines cone_defines(const ConeParams& params, const LightPyramid& pyramid)
 {
-    gl::Defines defines = pyramid.defines();
-    defines["MARCH"] = params.walk == int(ConeWalk::march) ? "1" : "0";
+    gl::Defines defines = {{"MARCH", params.walk == int(ConeWalk::march) ? "1" : "0"}};
+    defines.merge(pyramid.defines());
     return defines;
 }
 
@@ -110,7 +110,7 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes&
     points_.run(g_buffer, volumes.grid, share ? params.gather_scale : 1, sample);
 
     // Every point gathers by its own set of cones.
-    gl::fit_to_pixels(gathered_, gathered_framebuffer_, "gathered light", GL_RGBA16F, points_.size());
+    gl::fit_to_pixels(gathered_, gathered_framebuffer_, "gathered light", GL_RGBA32F, points_.size());
     volumes.bind();
     const gl::Program& gather = gather_.with(cone_defines(cones, volumes.pyramid));
     points_.bind(gather);
@@ -122,7 +122,7 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes&
     const gl::Texture& filtered = filter_.run(gathered_, g_buffer, points_);
 
     // Pixels take from the points around them.
-    gl::fit_to_pixels(light_, light_framebuffer_, "indirect diffuse light", GL_RGBA16F, g_buffer.size());
+    gl::fit_to_pixels(light_, light_framebuffer_, "indirect diffuse light", GL_RGBA32F, g_buffer.size());
     const gl::Program& upsample = upsample_.with(cone_defines(cones, volumes.pyramid));
     points_.bind(upsample);
     directions.bind(upsample, cones);

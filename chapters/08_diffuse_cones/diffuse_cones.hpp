@@ -87,7 +87,7 @@ class DiffuseCones {
 public:
     explicit DiffuseCones(gl::Shaders& shaders);
 
-    // RGBA16F of the g-buffer's size: rgb E / pi in W/(sr m^2), a: ambient visibility 0..1. `sample`: as in ConeDirections.
+    // RGBA32F of the g-buffer's size: rgb E / pi in W/(sr m^2), a: ambient visibility 0..1. `sample`: as in ConeDirections.
     const gl::Texture& run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeDirections& directions,
                            const ConeParams& cones, const DiffuseConeParams& params, int sample = 0);
     const GatherPoints& points() const { return points_; }  // of the last run

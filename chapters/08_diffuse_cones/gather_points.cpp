@@ -35,8 +35,8 @@ PointFilter::PointFilter(gl::Shaders& shaders)
 
 const gl::Texture& PointFilter::run(const gl::Texture& gathered, const GBuffer& g_buffer, const GatherPoints& points)
 {
-    gl::fit_to_pixels(rows_, rows_framebuffer_, "filtered along rows", GL_RGBA16F, points.size());
-    gl::fit_to_pixels(columns_, columns_framebuffer_, "filtered light", GL_RGBA16F, points.size());
+    gl::fit_to_pixels(rows_, rows_framebuffer_, "filtered along rows", GL_RGBA32F, points.size());
+    gl::fit_to_pixels(columns_, columns_framebuffer_, "filtered light", GL_RGBA32F, points.size());
     g_buffer.bind();
     points.bind(program_);
     gathered.bind(17);

@@ -31,7 +31,7 @@ private:
 class PointFilter {
 public:
     explicit PointFilter(gl::Shaders& shaders);
-    // RGBA16F of the points' size. Valid until the next call.
+    // RGBA32F of the points' size. Valid until the next call.
     const gl::Texture& run(const gl::Texture& gathered, const GBuffer& g_buffer, const GatherPoints& points);
     std::vector<gl::Resource> resources() const { return {rows_.resource(), columns_.resource()}; }
 

@@ -5,7 +5,7 @@
 //     L_o = rho * sum_k W_k L_k,     L_k: the light where the coverage on the way passes the threshold of cone k, or the sky
 //
 // Page: docs/08_diffuse_cones.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
 #include "07_anisotropic_mips/lit_voxels.hpp"
 #include "08_diffuse_cones/composite.hpp"
@@ -35,7 +35,8 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    app.show_meanwhile(first_light(app, scene, display_params));
+    ShadowMaps shadow_maps(app.shaders());
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     GBuffer g_buffer(app.shaders(), app.size());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
@@ -45,9 +46,9 @@ try {
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // What the lights see.
-        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
         voxels.shade(app, scene, shadow_maps);
@@ -82,7 +83,7 @@ try {
                                     composite_params, cone_params.sky);
         });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     app.statistics().set_counts(voxels.counts());
     for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(), direct_lighting.resources(), diffuse_cones.resources()})

@@ -48,21 +48,19 @@ bool WalkVolume::run(const VoxelGrid& grid, const VoxelFaces& faces)
     double_.use();
     for (int level = 0; level + 1 < kLevels; ++level) {
         double_.set("level", level);
-        glDispatchCompute(gl::group_count(product(rows), 64), 1, 1);
+        gl::dispatch_items(product(rows), 64);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
 
     // Empty cells: how far to leap. The others: a list.
     leaps_.use();
-    glDispatchCompute(gl::group_count(product({(size.x + 31) / 32, size.y, size.z}), 64), 1, 1);
+    gl::dispatch_items(product({(size.x + 31) / 32, size.y, size.z}), 64);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 
     // Of each in the list, what it covers.
     occupied_cells_ = cells.read_at<GLuint>(0);
     coverage_.use();
-    const GLuint groups = gl::group_count(occupied_cells_, 64);
-    constexpr GLuint kMostGroups = 65535;  // along an axis, the least that OpenGL 4.5 promises (table 23.66)
-    if (groups > 0) glDispatchCompute(std::min(groups, kMostGroups), gl::group_count(groups, kMostGroups), 1);
+    gl::dispatch_items(occupied_cells_, 64);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     return true;
 }

@@ -7,7 +7,7 @@
 //     tan(theta_h) = alpha sqrt(p / (1 - p)),     half angle of a cone = 2 theta_h / sqrt(N)
 //
 // Page: docs/09_specular_cones.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
 #include "07_anisotropic_mips/lit_voxels.hpp"
 #include "08_diffuse_cones/composite.hpp"
@@ -39,7 +39,8 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    app.show_meanwhile(first_light(app, scene, display_params));
+    ShadowMaps shadow_maps(app.shaders());
     LitVoxels voxels(app.shaders(), scene, voxel_params);
     GBuffer g_buffer(app.shaders(), app.size());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
@@ -52,9 +53,9 @@ try {
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // What the lights see.
-        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids, and where rays may leap.
         voxels.shade(app, scene, shadow_maps);
@@ -90,7 +91,7 @@ try {
                                     composite_params, cone_params.sky);
         });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     app.statistics().set_counts(voxels.counts());
     for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(),

@@ -13,12 +13,12 @@ void add_parameters(ParameterTable& table, SpecularConeParams& params)
 {
     table.add("specular_cones", params.specular_cones, 1, 64, "", "cones in the lobe of a rough surface");
     table.add("lobe_share", params.lobe_share, 0.1, 0.95, "", "share of the GGX lobe that the specular cone holds");
-    table.add("specular_start", params.specular_start, 0.0, 8.0, "voxels", "from the surface to the specular cone's start");
+    table.add("specular_start", params.specular_start, 0.0, 8.0, "voxels",
+              "from the surface to the specular cone's start");
 }
 
-SpecularCones::SpecularCones(gl::Shaders& shaders, const std::string& folder)
-    : trace_(shaders, {"common/fullscreen.vert", folder + "/specular.frag"}),
-      share_(shaders.load({"common/fullscreen.vert", "09_specular_cones/specular_share.frag"}))
+SpecularCones::SpecularCones(gl::Shaders& shaders)
+    : shaders_(shaders), share_(shaders.load({"common/fullscreen.vert", "09_specular_cones/specular_share.frag"}))
 {
     constexpr int kTableSize = 32, kSamples = 2048;  // within 0.5 %, tests/09_specular_cones_test.cpp
     const std::vector<glm::vec2> table = directional_albedo_table(kTableSize, kSamples);
@@ -40,14 +40,16 @@ void SpecularCones::bind(const gl::Program& program, const ConeParams& cones, co
 }
 
 const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
-                                      const SpecularConeParams& params, int sample)
+                                      const SpecularConeParams& params, int sample, const std::string& folder)
 {
-    gl::fit_to_pixels(lobe_light_, lobe_framebuffer_, "light in the lobe", GL_RGBA16F, g_buffer.size());
-    gl::fit_to_pixels(specular_, specular_framebuffer_, "specular light", GL_RGBA16F, g_buffer.size());
+    gl::fit_to_pixels(lobe_light_, lobe_framebuffer_, "light in the lobe", GL_RGBA32F, g_buffer.size());
+    gl::fit_to_pixels(specular_, specular_framebuffer_, "specular light", GL_RGBA32F, g_buffer.size());
     // The mean of the light in every pixel's lobe, or in its part of a wide one.
     g_buffer.bind();
     volumes.bind();
-    const gl::Program& trace = trace_.with(volumes.pyramid.defines());
+    const std::vector<std::string> files = {"common/fullscreen.vert", folder + "/specular.frag"};
+    const gl::Program& trace =
+        trace_.try_emplace(folder, shaders_, files).first->second.with(volumes.pyramid.defines());
     bind(trace, cones, params, sample);
     gl::draw_pixels(trace, specular_framebuffer_, no_vertices_, g_buffer.size());
 

@@ -1,6 +1,9 @@
 // Glossy reflection: a few cones that share the GGX lobe.
 #pragma once
 
+#include <map>
+#include <string>
+
 #include "08_diffuse_cones/diffuse_cones.hpp"
 
 namespace conebook {
@@ -20,12 +23,13 @@ void add_parameters(ParameterTable& table, SpecularConeParams& params);
 
 class SpecularCones {
 public:
-    // `folder` below shaders/ holds specular.frag; later chapters have their own.
-    explicit SpecularCones(gl::Shaders& shaders, const std::string& folder = "09_specular_cones");
+    explicit SpecularCones(gl::Shaders& shaders);
 
-    // RGBA16F of the g-buffer's size: radiance towards the camera. `sample` as in ConeDirections.
+    // RGBA32F of the g-buffer's size: radiance towards the camera. `sample` as in ConeDirections. `folder` below shaders/
+    // holds specular.frag; later chapters have their own.
     const gl::Texture& run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
-                           const SpecularConeParams& params, int sample = 0);
+                           const SpecularConeParams& params, int sample = 0,
+                           const std::string& folder = "09_specular_cones");
     std::vector<gl::Resource> resources() const
     {
         return {lobe_light_.resource(), specular_.resource(), directional_albedo_.resource()};
@@ -35,7 +39,8 @@ public:
     void bind(const gl::Program& program, const ConeParams& cones, const SpecularConeParams& params, int sample) const;
 
 private:
-    gl::ProgramVariants trace_;
+    gl::Shaders& shaders_;
+    std::map<std::string, gl::ProgramVariants> trace_;  // by folder
     gl::Program share_;
     gl::VertexArray no_vertices_;
     gl::Texture directional_albedo_, lobe_light_, specular_;

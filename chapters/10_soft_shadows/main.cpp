@@ -1,10 +1,10 @@
 // 10_soft_shadows: a cone to every light, as wide as the light looks, and the shadow's edge is as soft as it should be.
 //
-//     V = exp(-tau along the cone),     tan(half angle) = light radius / distance
+//     V = mean over thin cones of 1 - coverage that they meet,     sin(half angle) = light radius / distance
 //
 // beside the shadow maps of chapter 03 and the visibility that the voxels of chapter 06 keep.
 // Page: docs/10_soft_shadows.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "10_soft_shadows/soft_shadows.hpp"
 #include "app/needs.hpp"
 
@@ -19,8 +19,8 @@ try {
     CompositeParams composite_params;
     DisplayParams display_params;
     shadow_params.shadows = int(ShadowMethod::cone);
-    ParameterTable parameters = parameters_of(shadow_params, voxel_params, shadow_map_params, cone_params,
-                                              composite_params, display_params);
+    ParameterTable parameters =
+        parameters_of(shadow_params, voxel_params, shadow_map_params, cone_params, composite_params, display_params);
 
     App app(argc, argv,
             {"10_soft_shadows",
@@ -31,22 +31,26 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_map_params);
-    const bool asks_maps =
-        asks_shadow_maps(shadow_params) || voxel_params.shading.voxel_shadows == int(VoxelShadows::map);
+    app.show_meanwhile(first_light(app, scene, display_params));
+    ShadowMaps shadow_maps(app.shaders());
     LitVoxels voxels(app.shaders(), scene, voxel_params);
+    WalkVolume walk_volume(app.shaders());
     GBuffer g_buffer(app.shaders(), app.size());
     SoftShadowLighting lighting(app.shaders());
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // What the lights see, if pixels or voxels ask.
-        if (asks_maps) app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+        if (asks_shadow_maps(shadow_params) || voxel_params.shading.voxel_shadows == int(VoxelShadows::map))
+            app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_map_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
         voxels.shade(app, scene, shadow_maps);
         voxels.filter(app);
+
+        // Where rays may leap.
+        app.pass("walk volume", Scope::scene, [&] { return walk_volume.run(voxels.grid(), voxels.faces()); });
 
         // What the camera sees.
         g_buffer.resize(app.size());
@@ -55,8 +59,8 @@ try {
         // Cones to the lights.
         const gl::Texture* direct = nullptr;
         app.pass("direct light", [&] {
-            direct = &lighting.run(g_buffer, scene, voxels, shadow_maps, cone_params, shadow_params,
-                                   app.shows("visibility"));
+            direct = &lighting.run(g_buffer, scene, {voxels.grid(), voxels.pyramid(), walk_volume}, voxels.faces(),
+                                   voxels.shading(), shadow_maps, cone_params, shadow_params, app.shows("visibility"));
         });
 
         // Sum; the visibility is shown as it is.
@@ -67,14 +71,14 @@ try {
                                         composite_params, cone_params.sky);
             });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     app.statistics().set_counts(voxels.counts());
-    for (const auto& part :
-         {scene.resources(), shadow_maps.resources(), voxels.resources(), g_buffer.resources(), lighting.resources()})
+    for (const auto& part : {scene.resources(), shadow_maps.resources(), voxels.resources(), walk_volume.resources(),
+                             g_buffer.resources(), lighting.resources()})
         app.statistics().add_resources(part);
-    for (const auto& needs :
-         {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene), lighting.needs(shadow_params)})
+    for (const auto& needs : {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene),
+                              lighting.needs(shadow_params)})
         app.statistics().add_needs(needs);
     app.statistics().add_needs({light_need(app.scene()), sky_need(cone_params.sky)});
     return app.finish();

@@ -9,9 +9,7 @@ void add_parameters(ParameterTable& table, SoftShadowParams& params)
     table.add("shadows", params.shadows, {"map", "cone", "volume"}, "how direct light is shadowed");
     table.add("light_radius", params.light_radius, 0.001, 10.0, "m", "radius of point and spot lights, for cones");
     table.add("light_angle", params.light_angle, 0.05, 60.0, "deg", "full angle of directional lights, for cones");
-    table.add("shadow_cones", params.shadow_cones, 1, 16, "cones", "to each light");
-    table.add("shadow_net_faces", params.shadow_net_faces,
-              "faces along the cone cancel those against it; off: stripes");
+    table.add("shadow_cones", params.shadow_cones, 1, 64, "cones", "to each light, each thin");
 }
 
 SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders)
@@ -22,9 +20,9 @@ SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders)
 
 void SoftShadowLighting::fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading)
 {
-    if (!visibility_volume_) {
-        visibility_volume_ =
-            gl::texture_3d("visibility volume", GL_RGBA8, grid.size() * glm::ivec3(shared::kFaceCount, 1, 1));
+    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
+    if (!visibility_volume_ || visibility_volume_.size() != size) {
+        visibility_volume_ = gl::texture_3d("visibility volume", GL_RGBA8, size);
         visibility_volume_.set_filter(GL_LINEAR, GL_LINEAR);
     }
     visibility_volume_.clear();
@@ -39,36 +37,25 @@ void SoftShadowLighting::fill_volume(const VoxelGrid& grid, const VoxelFaces& fa
     visibility_volume_.bind(16);
 }
 
-const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuScene& scene, const LitVoxels& voxels,
-                                           const ShadowMaps& shadow_maps, const ConeParams& cone_params,
+const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuScene& scene, const ConeVolumes& volumes,
+                                           const VoxelFaces& faces, const VoxelShading& shading,
+                                           const ShadowMaps& shadow_maps, const ConeParams& cones,
                                            const SoftShadowParams& params, bool show_visibility)
 {
-    return run(g_buffer, scene, voxels.grid(), voxels.faces(), voxels.shading(), voxels.pyramid(), shadow_maps,
-               cone_params, params, show_visibility);
-}
-
-const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuScene& scene, const VoxelGrid& grid,
-                                           const VoxelFaces& faces, const VoxelShading& shading,
-                                           const LightPyramid& pyramid, const ShadowMaps& shadow_maps,
-                                           const ConeParams& cone_params, const SoftShadowParams& params,
-                                           bool show_visibility)
-{
     gl::fit_to_pixels(color_, framebuffer_, "softly shadowed light", GL_RGBA32F, g_buffer.size());
-    if (params.shadows == int(ShadowMethod::volume)) fill_volume(grid, faces, shading);
+    if (params.shadows == int(ShadowMethod::volume)) fill_volume(volumes.grid, faces, shading);
     g_buffer.bind();
-    grid.bind();
-    pyramid.bind();
-    gl::Defines defines = pyramid.defines();
+    volumes.bind();
+    gl::Defines defines = volumes.pyramid.defines();
     defines["METHOD"] = std::to_string(params.shadows);
     const gl::Program& lighting = lighting_.with(defines);
     scene.bind_lights(lighting);
     shadow_maps.bind(lighting);
-    set_cones(lighting, cone_params);
-    lighting.set("start_offset", cone_params.start_offset);
+    set_cones(lighting, cones);
+    lighting.set("start_offset", cones.start_offset);
     lighting.set("light_radius", params.light_radius);
     lighting.set("light_half_angle", glm::radians(0.5f * params.light_angle));
     lighting.set("shadow_cones", params.shadow_cones);
-    lighting.set("net_faces", params.shadow_net_faces);
     lighting.set("show_visibility", show_visibility);
     gl::draw_pixels(lighting, framebuffer_, no_vertices_, g_buffer.size());
     return color_;

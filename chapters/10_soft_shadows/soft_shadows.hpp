@@ -16,11 +16,8 @@ struct SoftShadowParams {
     float light_radius = 0.05f;
     // Full angle of directional lights in degrees, 0.05 .. 60; the sun's is 0.53.
     float light_angle = 0.53f;
-    // Cones to each light, 1 .. 16: with more, the edge of a shadow depends less on where it falls in a voxel.
-    int shadow_cones = 4;
-    // Subtract the faces that look along the cone from those that look against it. Off: slanted surfaces shadow
-    // themselves, in stripes.
-    bool shadow_net_faces = true;
+    // Thin cones to each light, 1 .. 64: each has an edge as soft as a voxel, so that a penumbra of n voxels is even with about n.
+    int shadow_cones = 12;
     bool operator==(const SoftShadowParams&) const = default;
 };
 void add_parameters(ParameterTable& table, SoftShadowParams& params);
@@ -33,15 +30,10 @@ public:
     explicit SoftShadowLighting(gl::Shaders& shaders);
 
     // RGBA32F of the g-buffer's size: radiance of direct light, or the mean visible share of the lights (0..1).
-    // Of `cone_params`, step and start_offset count.
-    const gl::Texture& run(const GBuffer& g_buffer, const GpuScene& scene, const LitVoxels& voxels,
-                           const ShadowMaps& shadow_maps, const ConeParams& cone_params, const SoftShadowParams& params,
-                           bool show_visibility);
-    // The same for voxels that are not in one hand.
-    const gl::Texture& run(const GBuffer& g_buffer, const GpuScene& scene, const VoxelGrid& grid,
-                           const VoxelFaces& faces, const VoxelShading& shading, const LightPyramid& pyramid,
-                           const ShadowMaps& shadow_maps, const ConeParams& cone_params, const SoftShadowParams& params,
-                           bool show_visibility);
+    // Of `cones`, start_offset counts.
+    const gl::Texture& run(const GBuffer& g_buffer, const GpuScene& scene, const ConeVolumes& volumes,
+                           const VoxelFaces& faces, const VoxelShading& shading, const ShadowMaps& shadow_maps,
+                           const ConeParams& cones, const SoftShadowParams& params, bool show_visibility);
     std::vector<gl::Resource> resources() const;
     std::vector<Need> needs(const SoftShadowParams& params) const;
 

@@ -23,8 +23,8 @@ const gl::Texture& EmitterLight::run(const GBuffer& g_buffer, const ConeVolumes&
 
     // Every point aims rays at a set of parts.
     if (!arriving_ || arriving_.size_2d() != points.size()) {
-        arriving_ = gl::texture_2d("light arriving from emitters", GL_RGBA16F, points.size());
-        unshadowed_ = gl::texture_2d("light of emitters, unshadowed", GL_RGBA16F, points.size());
+        arriving_ = gl::texture_2d("light arriving from emitters", GL_RGBA32F, points.size());
+        unshadowed_ = gl::texture_2d("light of emitters, unshadowed", GL_RGBA32F, points.size());
         samples_framebuffer_ =
             gl::Framebuffer("samples of emitters", std::vector<const gl::Texture*>{&arriving_, &unshadowed_});
     }
@@ -43,7 +43,7 @@ const gl::Texture& EmitterLight::run(const GBuffer& g_buffer, const ConeVolumes&
     const gl::Texture& unshadowed = unshadowed_filter_.run(unshadowed_, g_buffer, points);
 
     // Exact light times the share that arrives.
-    gl::fit_to_pixels(light_, light_framebuffer_, "indirect diffuse and emitters' light", GL_RGBA16F, g_buffer.size());
+    gl::fit_to_pixels(light_, light_framebuffer_, "indirect diffuse and emitters' light", GL_RGBA32F, g_buffer.size());
     const gl::Program& add = add_.with(defines);
     points.bind(add);
     set_cones(add, params);

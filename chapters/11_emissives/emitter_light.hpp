@@ -8,7 +8,7 @@ namespace conebook {
 class EmitterLight {
 public:
     explicit EmitterLight(gl::Shaders& shaders);
-    // RGBA16F of the g-buffer's size: what `cones` have gathered (`gathered`, their last result), and what emitters send.
+    // RGBA32F of the g-buffer's size: what `cones` have gathered (`gathered`, their last result), and what emitters send.
     const gl::Texture& run(const GBuffer& g_buffer, const ConeVolumes& volumes, const Emitters& emitters,
                            const DiffuseCones& cones, const gl::Texture& gathered, const ConeParams& params, int sample = 0);
     std::vector<gl::Resource> resources() const;

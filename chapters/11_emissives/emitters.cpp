@@ -17,28 +17,25 @@ void add_parameters(ParameterTable& table, EmitterParams& params)
     table.add("aimed_rays", params.aimed_rays, 0, 64, "", "rays aimed at emitters; 0: cones meet them by chance");
 }
 
-Emitters::Emitters(gl::Shaders& shaders, const Scene& scene, const VoxelGrid& grid, const EmitterParams& params)
-    : params_(params),
-      emitters_(make_emitter_parts(scene, grid.data(), kSets * params.aimed_rays, kSets)),
-      apart_(params.aimed_rays > 0 && shine() && emitters_.emitting_share < kLargeShare)
+bool Emitters::run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading,
+                   const EmitterParams& params)
 {
-    if (!apart_) return;
-    pyramid_.emplace(shaders, grid, PyramidParams{});
-    triangles_ = gl::Buffer("emitter triangles", emitters_.triangles);
-    parts_ = gl::Buffer("emitter parts", emitters_.parts);
-}
-
-bool Emitters::run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading)
-{
-    if (!apart_ || !made_from_.differs(faces.revision())) return false;
+    if (!made_from_.differs(faces.revision(), params)) return false;
     ++revision_;
-    pyramid_->run(grid, faces, shading.radiance(), shading.revision(), LightPart::emitted);
-    return true;
+    if (parts_made_from_.differs(grid.revision(), params)) {
+        params_ = params;
+        emitters_ = make_emitter_parts(scene_, grid.data(), kSets * params.aimed_rays, kSets);
+        apart_ = params.aimed_rays > 0 && shine() && emitters_.emitting_share < kLargeShare;
+        triangles_ = apart_ ? gl::Buffer("emitter triangles", emitters_.triangles) : gl::Buffer();
+        parts_ = apart_ ? gl::Buffer("emitter parts", emitters_.parts) : gl::Buffer();
+    }
+    if (apart_) pyramid_.run(grid, faces, shading.radiance(), shading.revision(), PyramidParams{}, LightPart::emitted);
+    return shine();
 }
 
 void Emitters::bind_emission() const
 {
-    if (apart_) pyramid_->bind_as_emission();
+    if (apart_) pyramid_.bind_as_emission();
 }
 
 void Emitters::bind(const gl::Program& program) const
@@ -54,7 +51,7 @@ void Emitters::bind(const gl::Program& program) const
 std::vector<gl::Resource> Emitters::resources() const
 {
     if (!apart_) return {};
-    std::vector<gl::Resource> all = pyramid_->resources();
+    std::vector<gl::Resource> all = pyramid_.resources();
     for (gl::Resource& resource : all) resource.name = "emission pyramid";
     all.push_back(parts_.resource());
     all.push_back(triangles_.resource());
@@ -63,7 +60,8 @@ std::vector<gl::Resource> Emitters::resources() const
 
 Need Emitters::need() const
 {
-    const std::string share = std::to_string(int(100.0 * emitters_.emitting_share + 0.5)) + " % of the scene's area shines";
+    const std::string share =
+        std::to_string(int(100.0 * emitters_.emitting_share + 0.5)) + " % of the scene's area shines";
     return {"rays aimed at emitters", apart_,
             !shine()                  ? "no material shines"
             : params_.aimed_rays == 0 ? "aimed_rays=0"

@@ -1,8 +1,6 @@
 // Emitting surfaces as lights: their exact light where nothing is in the way, and rays aimed at them that say what is.
 #pragma once
 
-#include <optional>
-
 #include "07_anisotropic_mips/lit_voxels.hpp"
 #include "09_specular_cones/specular_cones.hpp"
 #include "11_emissives/emitter_parts.hpp"
@@ -19,18 +17,20 @@ void add_parameters(ParameterTable& table, EmitterParams& params);
 
 class Emitters {
 public:
-    // Emission is kept apart where it is worth it: where something shines, and not so much of the scene that cones meet it
-    // as well as aimed rays would.
-    Emitters(gl::Shaders& shaders, const Scene& scene, const VoxelGrid& grid, const EmitterParams& params);
+    // `scene` must outlive this.
+    Emitters(gl::Shaders& shaders, const Scene& scene) : scene_(scene), pyramid_(shaders) {}
 
+    // What shines, and a pyramid of it, if the faces or a parameter have changed; says whether there is anything. Emission is
+    // kept apart where it is worth it: where something shines, and not so much of the scene that cones meet it as well as
+    // aimed rays would.
+    bool run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading, const EmitterParams& params);
+    Revision revision() const { return revision_; }
+
+    // All of the following is of the last run.
     // What the pyramid of the voxels is to hold: all light, or what surfaces reflect where this keeps the rest.
     LightPart part_of_voxels() const { return apart_ ? LightPart::reflected : LightPart::all; }
     bool are_apart() const { return apart_; }
     bool shine() const { return emitters_.emitting_share > 0.0; }
-
-    // If the faces have changed: a pyramid of what they emit.
-    bool run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
-    Revision revision() const { return revision_; }
 
     // Where SpecularCones find their program: this chapter's where emission is apart.
     std::string specular_folder() const { return apart_ ? "11_emissives" : "09_specular_cones"; }
@@ -39,19 +39,21 @@ public:
     // For programs that include emitters.glsl and are compiled with defines(): kEmitterBinding, kEmitterTriangleBinding.
     void bind(const gl::Program& program) const;
     gl::Defines defines() const { return {{"TRIANGLES", !emitters_.triangles.empty() ? "1" : "0"}}; }
-    const LightPyramid* pyramid() const { return pyramid_ ? &*pyramid_ : nullptr; }
+    const LightPyramid* pyramid() const { return apart_ ? &pyramid_ : nullptr; }
     std::vector<gl::Resource> resources() const;
     Need need() const;
 
     static constexpr int kSets = 16;  // of rays, as of cones
 
 private:
+    const Scene& scene_;
     EmitterParams params_;
     EmitterParts emitters_;
-    bool apart_;
-    std::optional<LightPyramid> pyramid_;
+    bool apart_ = false;
+    LightPyramid pyramid_;
     gl::Buffer parts_, triangles_;
-    MadeFrom<Revision> made_from_;  // faces
+    MadeFrom<Revision, EmitterParams> parts_made_from_;  // grid
+    MadeFrom<Revision, EmitterParams> made_from_;        // faces
     Revision revision_ = 0;
 };
 

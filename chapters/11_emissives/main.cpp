@@ -3,7 +3,7 @@
 //     E = sum_triangles Le / 2 sum_edges angle (n . normal of the edge's plane)  x  arriving / unshadowed of shared rays
 //
 // Page: docs/11_emissives.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "02_g_buffer/direct_lighting.hpp"
 #include "08_diffuse_cones/composite.hpp"
 #include "11_emissives/emitter_light.hpp"
@@ -36,9 +36,10 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
-    ShadowMaps shadow_maps(app.shaders(), scene, shadow_params);
+    app.show_meanwhile(first_light(app, scene, display_params));
+    ShadowMaps shadow_maps(app.shaders());
     LitVoxels voxels(app.shaders(), scene, voxel_params);
-    Emitters emitters(app.shaders(), app.scene(), voxels.grid(), emitter_params);
+    Emitters emitters(app.shaders(), app.scene());
     WalkVolume walk_volume(app.shaders());
     const ConeVolumes volumes{voxels.grid(), voxels.pyramid(), walk_volume};
     GBuffer g_buffer(app.shaders(), app.size());
@@ -46,25 +47,27 @@ try {
     ConeDirections directions;
     DiffuseCones diffuse_cones(app.shaders());
     EmitterLight emitter_light(app.shaders());
-    SpecularCones specular_cones(app.shaders(), emitters.specular_folder());
+    SpecularCones specular_cones(app.shaders());
     const bool reflective = has_specular_surfaces(app.scene());
     CompositePass composite(app.shaders());
     ToneMapPass tone_map(app.shaders());
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // What the lights see.
-        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene); });
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // snippet: emission_apart
-        // Triangles -> voxels -> what they reflect -> six pyramids. On request nothing that they reflect.
+        // Triangles -> voxels -> what they emit -> six pyramids, and the parts of it to aim at.
         voxels.shade(app, scene, shadow_maps);
+        app.pass("emitters", Scope::scene, [&] {
+            return emitters.run(voxels.grid(), voxels.faces(), voxels.shading(), emitter_params);
+        });
+
+        // What they reflect -> six more. On request nothing that they reflect.
         voxels.filter(app, !app.shows("from_emitters") ? emitters.part_of_voxels()
                            : emitters.are_apart()      ? LightPart::none
                                                        : LightPart::emitted);
         app.pass("walk volume", Scope::scene, [&] { return walk_volume.run(voxels.grid(), voxels.faces()); });
-
-        // What they emit -> six more, and the parts of it to aim at.
-        app.pass("emitters", Scope::scene, [&] { return emitters.run(voxels.grid(), voxels.faces(), voxels.shading()); });
         // end snippet
 
         // What the camera sees, and what of it the lamps reach.
@@ -89,7 +92,8 @@ try {
         if (reflective)
             app.pass("specular cones", [&] {
                 emitters.bind_emission();
-                specular = &specular_cones.run(g_buffer, volumes, cone_params, specular_params);
+                specular = &specular_cones.run(g_buffer, volumes, cone_params, specular_params, 0,
+                                               emitters.specular_folder());
             });
 
         // Sum.
@@ -100,7 +104,7 @@ try {
             linear = &composite.run(g_buffer, direct, gathered, specular, parts, composite_params, cone_params.sky);
         });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
-    }
+    });
 
     std::vector<Count> counts = voxels.counts();
     const glm::dvec3 power_w = emitted_power_w(voxels.faces(), voxels.grid());

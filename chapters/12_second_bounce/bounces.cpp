@@ -24,8 +24,9 @@ Bounces::Bounces(gl::Shaders& shaders)
 bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitters& emitters, const ConeParams& cones,
                    const BounceParams& params)
 {
-    if (!linked_from_.differs(walk.revision(), emitters.revision(), cones.start_offset, cones.cone_table, cones.aperture,
-                              params.links)) return false;
+    if (!linked_from_.differs(walk.revision(), voxels.coverage_revision(), emitters.revision(), cones.start_offset,
+                              cones.cone_table, cones.aperture, params.links))
+        return false;
     ++links_revision_;
     constexpr int kSets = 64;  // of 8 x 8 faces of a wall
     const std::size_t count = voxels.faces().face_count();
@@ -40,9 +41,8 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     voxels.faces().bind();
     voxels.pyramid().bind();
     walk.bind();
-    gl::Defines defines = voxels.pyramid().defines();
-    defines["MARCH"] = "0";
-    defines["EMITTERS"] = emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0";
+    gl::Defines defines = {{"MARCH", "0"}, {"EMITTERS", emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0"}};
+    defines.merge(voxels.pyramid().defines());
     defines.merge(emitters.defines());
     const gl::Program& link = link_.with(defines);
     ConeParams rays = cones;
@@ -93,7 +93,7 @@ bool Bounces::run(const LitVoxels& voxels, const ConeParams& cones, const Bounce
         packed_[0].bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBeforeBinding);
         (is_last ? reflected_ : packed_[1]).bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceAfterBinding);
         if (measure) change_.clear();
-        glDispatchCompute(gl::group_count(faces.face_count(), 256), 1, 1);
+        gl::dispatch_items(faces.face_count(), 64);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         std::swap(packed_[0], packed_[1]);
         if (settled) break;

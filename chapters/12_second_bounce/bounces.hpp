@@ -41,7 +41,8 @@ private:
     gl::ProgramVariants link_, bounce_;
     gl::Buffer links_, from_emitters_, albedo_, packed_[2], reflected_, change_;
     bool has_emitters_ = false;
-    MadeFrom<Revision, Revision, float, int, float, int> linked_from_;  // walk volume, emitters, rays, links
+    // Walk volume, coverage, emitters, rays, links.
+    MadeFrom<Revision, Revision, Revision, float, int, float, int> linked_from_;
     MadeFrom<Revision, Revision, float, BounceParams> made_from_;   // links, what is directly lit, sky
     Revision links_revision_ = 0, revision_ = 0;
     int count_ = 0;

@@ -33,7 +33,7 @@ CameraLight::CameraLight(gl::Shaders& shaders, const SceneLight& light, glm::ive
       direct_lighting_(shaders),
       diffuse_cones_(shaders),
       emitter_light_(shaders),
-      specular_cones_(shaders, light.emitters().specular_folder()),
+      specular_cones_(shaders),
       composite_(shaders),
       accumulation_(shaders),
       pyramid_view_(shaders),
@@ -47,15 +47,16 @@ void CameraLight::see(App& app, const GpuScene& scene)
     g_buffer_.resize(app.size());
     app.pass("g-buffer", [&] { g_buffer_.draw(scene, app.camera()); });
     app.pass("direct light", [&] {
-        direct_ = &direct_lighting_.run(g_buffer_, scene, light_.voxels(), light_.shadow_maps(), params_.cones,
-                                        params_.shadows, false);
+        direct_ = &direct_lighting_.run(g_buffer_, scene, light_.volumes(), light_.voxels().faces(),
+                                        light_.voxels().shading(), light_.shadow_maps(), params_.cones, params_.shadows,
+                                        false);
     });
 }
 
-void CameraLight::gather(App& app)
+void CameraLight::gather(App& app, const LightPlan& plan)
 {
     gathered_ = specular_ = nullptr;
-    if (!light_.has_indirect()) return;
+    if (!plan.diffuse_cones.used) return;
     directions_.update(params_.cones, sample_);
     app.pass("diffuse cones", [&] {
         gathered_ = &diffuse_cones_.run(g_buffer_, light_.volumes(), directions_, params_.cones, params_.diffuse, sample_);
@@ -65,10 +66,11 @@ void CameraLight::gather(App& app)
                                         params_.cones, sample_);
         return light_.emitters().are_apart();
     });
-    if (!has_specular_surfaces(app.scene())) return;
+    if (!plan.specular_cones.used) return;
     app.pass("specular cones", [&] {
         light_.emitters().bind_emission();
-        specular_ = &specular_cones_.run(g_buffer_, light_.volumes(), params_.cones, params_.specular, sample_);
+        specular_ = &specular_cones_.run(g_buffer_, light_.volumes(), params_.cones, params_.specular, sample_,
+                                         light_.emitters().specular_folder());
     });
 }
 
@@ -107,11 +109,6 @@ std::vector<gl::Resource> CameraLight::resources() const
 std::vector<Need> CameraLight::needs(const Scene& source) const
 {
     std::vector<Need> all = surface_needs(source);
-    for (const Need& need : direct_lighting_.needs(params_.shadows)) all.push_back(need);
-    const bool indirect = light_.has_indirect();
-    const std::string direct_alone = "bounces=0: direct light alone";
-    all.push_back({"diffuse cones", indirect, indirect ? "for indirect light" : direct_alone});
-    all.push_back(indirect ? specular_cone_need(source) : Need{"specular cones", false, direct_alone});
     all.push_back(sky_need(params_.cones.sky));
     return all;
 }

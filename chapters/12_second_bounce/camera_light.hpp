@@ -29,7 +29,7 @@ public:
     // The surfaces under the pixels, and the light that comes to them straight from the lights.
     void see(App& app, const GpuScene& scene);
     // What other surfaces send, by many narrow cones for the diffuse lobe and few for the specular one, if any surface has one.
-    void gather(App& app);
+    void gather(App& app, const LightPlan& plan);
     // RGBA32F: the sum, or another of the views; the mean of frames while nothing changes. Valid until the next call.
     const gl::Texture& sum(App& app);
 

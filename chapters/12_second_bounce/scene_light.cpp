@@ -14,20 +14,20 @@ void add_parameters(ParameterTable& table, SceneLightParams& params)
 
 SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params)
     : params_(params),
-      shadow_maps_(shaders, scene, params.shadow_maps),
+      shadow_maps_(shaders),
       voxels_(shaders, scene, params.voxels),
       walk_volume_(shaders),
-      emitters_(shaders, source, voxels_.grid(), params.emitters),
+      emitters_(shaders, source),
       bounces_(shaders)
 {
 }
 
-void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, bool ask_maps)
+void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan)
 {
     if (params_.voxels.update == int(Update::always)) shadow_maps_.forget();
     // What the lights see, if pixels or voxels ask.
-    if (ask_maps || params_.voxels.shading.voxel_shadows == int(VoxelShadows::map))
-        app.pass("shadow maps", Scope::light, [&] { return shadow_maps_.draw(scene); });
+    if (plan.shadow_maps.used)
+        app.pass("shadow maps", Scope::light, [&] { return shadow_maps_.draw(scene, params_.shadow_maps); });
 
     // Triangles -> voxels -> what their faces reflect of direct light.
     voxels_.shade(app, scene, shadow_maps_);
@@ -35,11 +35,10 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, b
     // Where rays may leap, and what shines.
     app.pass("walk volume", Scope::scene, [&] { return walk_volume_.run(voxels_.grid(), voxels_.faces()); });
     app.pass("emitters", Scope::scene,
-             [&] { return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading()); });
+             [&] { return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), params_.emitters); });
 
     // Faces light faces, along links that stay.
-    const bool many = params_.bounces.bounces < 0 || params_.bounces.bounces > 1;
-    if (many) {
+    if (plan.further_bounces.used) {
         // The rays of faces ask the pyramid what covers the back of the place where they start.
         voxels_.filter_coverage(app);
         app.pass("links", Scope::scene,
@@ -48,7 +47,7 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, b
     }
 
     // Faces -> pyramids, for the cones of the pixels.
-    if (many)
+    if (plan.further_bounces.used)
         voxels_.filter(app, bounces_.reflected(), bounces_.revision(), emitters_.part_of_voxels());
     else
         voxels_.filter(app, emitters_.part_of_voxels());
@@ -66,10 +65,10 @@ std::vector<gl::Resource> SceneLight::resources() const
 std::vector<Need> SceneLight::needs(const Scene& source, const GpuScene& scene) const
 {
     std::vector<Need> all = voxel_material_needs(scene);
-    for (const Need& need : shadow_maps_.needs(scene)) all.push_back(need);
+    if (!source.lights.empty())
+        for (const Need& need : shadow_maps_.needs(scene)) all.push_back(need);
     all.push_back(light_need(source));
     all.push_back(emitters_.need());
-    all.push_back({"further bounces", bounces_.count() > 0, "bounces=" + std::to_string(params_.bounces.bounces)});
     return all;
 }
 

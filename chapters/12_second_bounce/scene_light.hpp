@@ -2,8 +2,7 @@
 // their light -> pyramids. Each pass runs when something that its result depends on has changed.
 #pragma once
 
-#include "10_soft_shadows/soft_shadows.hpp"
-#include "12_second_bounce/bounces.hpp"
+#include "12_second_bounce/light_plan.hpp"
 
 namespace conebook {
 
@@ -17,11 +16,10 @@ void add_parameters(ParameterTable& table, SceneLightParams& params);
 
 class SceneLight {
 public:
-    // `shaders` and `params` must outlive this.
+    // `shaders`, `source` and `params` must outlive this.
     SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params);
 
-    // `ask_maps`: pixels look into the shadow maps, too.
-    void run(App& app, const GpuScene& scene, const ConeParams& cones, bool ask_maps);
+    void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan);
 
     const LitVoxels& voxels() const { return voxels_; }
     const ShadowMaps& shadow_maps() const { return shadow_maps_; }
@@ -30,8 +28,6 @@ public:
     ConeVolumes volumes() const { return {voxels_.grid(), voxels_.pyramid(), walk_volume_}; }
     // Changes whenever the light in the voxels does.
     Revision revision() const { return voxels_.pyramid().revision(); }
-    // Whether anything but lamps and what shines is to be seen.
-    bool has_indirect() const { return params_.bounces.bounces != 0; }
 
     std::vector<gl::Resource> resources() const;
     std::vector<Need> needs(const Scene& source, const GpuScene& scene) const;

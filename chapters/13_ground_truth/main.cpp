@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "12_second_bounce/camera_light.hpp"
 #include "13_ground_truth/background_tracer.hpp"
 #include "13_ground_truth/side_by_side.hpp"
@@ -39,14 +39,19 @@ try {
     App app(argc, argv, {"13_ground_truth", reference_views(), parameters});
 
     const GpuScene scene(app.scene());
+    app.show_meanwhile(first_light(app, scene, display_params));
     SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params);
     CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
     const bool headless = app.options().headless;
     BackgroundTracer path_tracer(app.scene(), tracer_threads(headless));
     SideBySide side_by_side(app.shaders());
     ToneMapPass tone_map(app.shaders());
+    const SceneTraits traits = traits_of(app.scene());
+    const auto make_plan = [&] {
+        return plan_light(traits, scene_params.voxels.shading, scene_params.bounces, camera_params.shadows);
+    };
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         const Show show = what_to_show(app.view(), reference_params, headless);
 
         // The path tracer's picture of the same light: headless so many samples a frame; in a window a thread refines
@@ -64,11 +69,15 @@ try {
         // The frame of chapter 12; what it is made of is made in the first frame, even when cones are not shown yet.
         const gl::Texture* picture = nullptr;
         if (show != Show::reference || app.frame() == 0) {
-            scene_light.run(app, scene, camera_params.cones, asks_shadow_maps(camera_params.shadows));
+            const LightPlan plan = make_plan();
+            scene_light.run(app, scene, camera_params.cones, plan);
             camera_light.see(app, scene);
-            camera_light.gather(app);
+            camera_light.gather(app, plan);
             picture = &camera_light.sum(app);
         }
+
+        // The tracer goes on.
+        if (reference != nullptr && !headless) app.expect_more();
 
         // One of them, or both as one picture.
         SideBySideResult result;
@@ -79,7 +88,7 @@ try {
         // Exposure, tone curve, sRGB.
         app.show(*result.linear, tone_map.run(*result.shown, result.encoding, display_params,
                                               data_scale(app.view(), scene.bounds())));
-    }
+    });
 
     std::vector<Count> counts = scene_light.counts();
     if (const auto traced = path_tracer.newest()) {
@@ -92,7 +101,8 @@ try {
     for (const auto& part :
          {scene.resources(), scene_light.resources(), camera_light.resources(), side_by_side.resources()})
         app.statistics().add_resources(part);
-    for (const auto& needs : {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene())})
+    for (const auto& needs :
+         {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene()), make_plan().decisions()})
         app.statistics().add_needs(needs);
     app.statistics().add_needs({{"path tracer", path_tracer.newest() != nullptr,
                                  "view " + app.view().name + ", show=" + show_name(Show(reference_params.show))}});

@@ -26,8 +26,8 @@ void FetchCounter::run(const SceneLight& scene_light, const CameraLight& camera_
     g_buffer.bind();
     volumes.bind();
     // snippet: count
-    gl::Defines defines = cone_defines(params.cones, volumes.pyramid);
-    defines["EMITTERS"] = emitters.are_apart() ? "1" : "0";
+    gl::Defines defines = {{"EMITTERS", emitters.are_apart() ? "1" : "0"}};
+    defines.merge(cone_defines(params.cones, volumes.pyramid));
     const gl::Program& diffuse = diffuse_.with(defines);
     camera_light.diffuse_cones().points().bind(diffuse);
     camera_light.directions().bind(diffuse, params.cones);

@@ -6,7 +6,7 @@
 //
 // t: ms a frame, e: error against the path tracer. ./run report measures both for many settings.
 // Page: docs/14_speed_against_error.md
-#include "01_first_light/tone_map.hpp"
+#include "01_first_light/first_light.hpp"
 #include "12_second_bounce/camera_light.hpp"
 #include "14_speed_against_error/fetch_counter.hpp"
 #include "14_speed_against_error/part_pictures.hpp"
@@ -46,23 +46,29 @@ try {
              parameters});
 
     const GpuScene scene(app.scene());
+    app.show_meanwhile(first_light(app, scene, display_params));
     SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params);
     CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
     FetchCounter fetch_counter(app.shaders());
     ToneMapPass tone_map(app.shaders());
+    const SceneTraits traits = traits_of(app.scene());
+    const auto make_plan = [&] {
+        return plan_light(traits, scene_params.voxels.shading, scene_params.bounces, camera_params.shadows);
+    };
     FetchCounts fetches;
 
-    while (app.next_frame()) {
+    app.each_frame([&] {
         // Chapter 12's frame: light in the voxels, surfaces, cones, sum.
-        scene_light.run(app, scene, camera_params.cones, asks_shadow_maps(camera_params.shadows));
+        const LightPlan plan = make_plan();
+        scene_light.run(app, scene, camera_params.cones, plan);
         camera_light.see(app, scene);
-        camera_light.gather(app);
+        camera_light.gather(app, plan);
         const gl::Texture& linear = camera_light.sum(app);
 
         // The same cones once more, to count: outside of every pass, so that no time holds it.
         const bool last = app.frame() + 1 == app.options().frames;
-        if (app.shows("fetches") || (measure_params.count_fetches && last && scene_light.has_indirect())) {
-            fetch_counter.run(scene_light, camera_light, camera_params, has_specular_surfaces(app.scene()));
+        if (app.shows("fetches") || (measure_params.count_fetches && last && plan.diffuse_cones.used)) {
+            fetch_counter.run(scene_light, camera_light, camera_params, plan.specular_cones.used);
             fetches = fetch_counter.counts(camera_light.g_buffer());
         }
         if (app.shows("fetches"))
@@ -71,7 +77,7 @@ try {
         else
             app.show(linear,
                      tone_map.run(linear, app.view().encoding, display_params, data_scale(app.view(), scene.bounds())));
-    }
+    });
     if (measure_params.write_parts && !app.options().output.empty()) {
         write_part_pictures(app.options().output, camera_light);
         camera_light.composite(app.view().name);  // where the parts were is what finish() writes
@@ -89,7 +95,8 @@ try {
     app.statistics().set_counts(counts);
     for (const auto& part : {scene.resources(), scene_light.resources(), camera_light.resources()})
         app.statistics().add_resources(part);
-    for (const auto& needs : {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene())})
+    for (const auto& needs :
+         {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene()), make_plan().decisions()})
         app.statistics().add_needs(needs);
     return app.finish();
 } catch (const std::exception& error) {

@@ -7,16 +7,10 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "app/app_window.hpp"
 #include "app/needs.hpp"
-#include "app/window.hpp"
 
 namespace conebook {
-
-struct App::Window {
-    WindowInput input;
-    WindowRequests requests;
-    int screenshots = 0;
-};
 
 namespace {
 
@@ -25,6 +19,30 @@ std::size_t index_of(const std::vector<View>& views, const std::string& name)
     std::size_t i = 0;
     while (views[i].name != name) ++i;
     return i;
+}
+
+// Does `work`; what it throws is a fault of the preset and names its file.
+template <typename Work>
+auto of_preset(const std::filesystem::path& preset, Work work)
+{
+    try {
+        return work();
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(preset.string() + ": " + error.what());
+    }
+}
+
+Scene scene_of(const Options& options)
+{
+    Scene scene = load_scene(options.scene);
+    of_preset(options.preset, [&] { place_lights(scene, options.lights); });
+    return scene;
+}
+
+Camera camera_of(const Scene& scene, const Options& options)
+{
+    if (!options.camera_from_preset) return place_camera(scene, options.camera);
+    return of_preset(options.preset, [&] { return place_camera(scene, options.camera); });
 }
 
 // OpenGL's bottom row first to the files' top row first.
@@ -41,48 +59,55 @@ void flip_rows(std::vector<T>& texels, int width, int height)
 App::App(int argc, char** argv, ProgramInfo info)
     : info_(std::move(info)),
       options_(parse_options(argc, argv, info_)),
-      scene_(load_scene(options_.scene)),
+      scene_(scene_of(options_)),
       context_(options_.headless ? Context::headless(options_.device) : Context::window(info_.name, options_.size)),
       shaders_(options_.root / "shaders"),
       timer_(context_.is_software() ? PassTimer::Clock::cpu_around_finish : PassTimer::Clock::gpu_queries),
-      camera_(choose_camera(scene_, options_.camera)),
+      camera_(camera_of(scene_, options_)),
       size_(options_.size),
       view_index_(index_of(info_.views, options_.view))
 {
     for (const std::string& warning : scene_.warnings)
         std::cerr << options_.scene.filename().string() << ": note: " << warning << "\n";
     statistics_.set_run(info_.name, context_.driver(), size_);
-    statistics_.add_needs({camera_need(scene_, options_.camera)});
+    statistics_.add_needs({camera_need(scene_, options_.camera.index)});
     // The book's conventions for every pass: depth 1 near and 0 far, stored as float without loss.
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    if (context_.glfw_window() != nullptr) {
-        std::cerr << info_.name << ": drawn by " << context_.driver() << "\n";
-        window_ = std::unique_ptr<Window>(
-            new Window{WindowInput(context_.glfw_window(), camera_, scene_.bounds), {}, 0});
-    }
+    if (context_.glfw_window() != nullptr) start_window();
 }
 
 App::~App() = default;
 
+void App::each_frame(const std::function<void()>& draw)
+{
+    while (next_frame()) {
+        try {
+            draw();
+        } catch (const GivenUp&) {
+            --frame_;
+            seen_.forget();  // the mean of frames lacks this one
+        } catch (const std::exception& fault) {
+            if (!undo_values(fault)) throw;
+            --frame_;
+            seen_.forget();
+        }
+    }
+}
+
 bool App::next_frame()
 {
     ++frame_;
-    if (window_ == nullptr) return frame_ < options_.frames;
-    if (options_.frames_given && frame_ >= options_.frames) return false;
-    window_->requests = window_->input.poll(camera_);
-    const WindowRequests& requests = window_->requests;
-    if (requests.close) return false;
-    if (requests.next_view) view_index_ = (view_index_ + 1) % info_.views.size();
-    if (requests.view && *requests.view < info_.views.size()) view_index_ = *requests.view;
-    if (requests.reload_shaders) {
-        try {
-            shaders_.reload();
-        } catch (const std::exception& error) {
-            std::cerr << error.what() << "\n";  // the old programs go on, so the reader can correct the file
-        }
-    }
-    size_ = window_->input.framebuffer_size();
-    return true;
+    accumulates_ = expects_more_ = false;
+    if ((options_.frames_given || window_ == nullptr) && frame_ >= options_.frames) return false;
+    return window_ == nullptr || next_window_frame();
+}
+
+void App::time_pass(const std::string& name, Scope scope, const std::function<bool()>& work)
+{
+    if (window_ != nullptr)
+        time_pass_in_window(name, scope, work);
+    else
+        timer_.time(name, scope, work, statistics_);
 }
 
 namespace {
@@ -99,8 +124,10 @@ float radical_inverse(int base, int i)
 
 int App::sample(bool accumulate, Revision light)
 {
-    const bool changed = seen_.differs(camera_.world_from_camera, size_, view_index_, info_.parameters.values(), accumulate, light);
-    sample_ = accumulate && !changed && view().encoding == Encoding::radiance ? sample_ + 1 : 0;
+    const bool changed =
+        seen_.differs(camera_.world_from_camera, size_, view_index_, info_.parameters.values(), accumulate, light);
+    accumulates_ = accumulate && view().encoding == Encoding::radiance;
+    sample_ = accumulates_ && !changed ? sample_ + 1 : 0;
     return sample_;
 }
 
@@ -112,11 +139,11 @@ shared::CameraData App::camera() const
 
 const View& App::view() const { return info_.views[view_index_]; }
 
-void App::write_picture(const gl::Texture& linear, const gl::Texture& display) const
+void App::write_picture(const std::filesystem::path& file, const gl::Texture& linear, const gl::Texture& display) const
 {
-    const ImageF radiance = finite_picture(linear, options_.output);
-    if (options_.output.extension() == ".exr") {
-        write_exr(options_.output, radiance);
+    const ImageF radiance = finite_picture(linear, file);
+    if (file.extension() == ".exr") {
+        write_exr(file, radiance);
         return;
     }
     const glm::ivec2 size = linear.size_2d();
@@ -125,7 +152,7 @@ void App::write_picture(const gl::Texture& linear, const gl::Texture& display) c
     flip_rows(texels, size.x, size.y);
     Image8 picture{size.x, size.y, std::vector<std::uint8_t>(texels.size() * 4)};
     std::memcpy(picture.rgba.data(), texels.data(), picture.rgba.size());
-    write_png(options_.output, picture);
+    write_png(file, picture);
 }
 
 void App::show(const gl::Texture& linear, const gl::Texture& display)
@@ -133,15 +160,7 @@ void App::show(const gl::Texture& linear, const gl::Texture& display)
     linear_ = &linear;
     display_ = &display;
     timer_.end_frame(statistics_);
-    if (window_ == nullptr) return;
-    window_->input.present(display);
-    if (window_->requests.screenshot) {
-        const Options saved = options_;
-        options_.output = info_.name + "_" + std::to_string(window_->screenshots++) + ".png";
-        write_picture(linear, display);
-        std::cout << "screenshot: " << std::filesystem::absolute(options_.output).string() << "\n";
-        options_ = saved;
-    }
+    if (window_ != nullptr) show_in_window(display);
 }
 
 int App::finish()
@@ -150,11 +169,14 @@ int App::finish()
     timer_.finish(statistics_);
     std::vector<std::string> faults = debug_log_.faults();
     if (faults.empty()) {
-        if (linear_ != nullptr && !options_.output.empty()) write_picture(*linear_, *display_);
+        if (linear_ != nullptr && !options_.output.empty()) write_picture(options_.output, *linear_, *display_);
         faults = debug_log_.faults();
     }
     if (!faults.empty()) throw std::runtime_error(faults.front());
     if (!options_.stats.empty()) statistics_.write_json(options_.stats);
+    if (!options_.save_preset.empty())
+        write_preset(options_.save_preset, info_.parameters,
+                     {view().name, choice_of(scene_, options_.camera.index, camera_), options_.lights});
     if (options_.print_stats) std::cout << statistics_.table();
     return EXIT_SUCCESS;
 }

@@ -1,10 +1,14 @@
 // The frame loop that every chapter shares: command line, context, scene, camera, timing, pictures, exit code.
 //
-//     while (app.next_frame()) {
+//     app.each_frame([&] {
 //         app.pass("g-buffer", [&] { ... });
 //         app.show(linear, display);
-//     }
+//     });
 //     return app.finish();
+//
+// In a window the frames follow the reader (app_window.cpp): coarse ones while something moves, then finer ones, then
+// none. A frame whose picture nobody wants any more ends in a call of the App's or between the slices of a draw, as if
+// it had never begun.
 #pragma once
 
 #include <functional>
@@ -14,6 +18,7 @@
 
 #include "app/context.hpp"
 #include "app/options.hpp"
+#include "app/panel.hpp"
 #include "app/pass_timer.hpp"
 #include "app/statistics.hpp"
 #include "gl/debug_log.hpp"
@@ -35,17 +40,28 @@ public:
     const Scene& scene() const { return scene_; }
     gl::Shaders& shaders() { return shaders_; }
 
-    // Starts a frame; false when the last one is done or the window was closed.
+    // In a window: what there is to see, and follows the reader, until the first frame is done. `draw` makes a picture
+    // for camera(), size() and view() and must be fast.
+    void show_meanwhile(std::function<const gl::Texture&()> draw);
+
+    // Adds a part of a chapter's own to the window's panel. Without a window, nothing.
+    void add_panel_section(PanelSection section);
+
+    // Draws frame after frame, until the last one is done or the window is closed.
+    void each_frame(const std::function<void()>& draw);
+    // The same by hand, without a window: starts a frame; false when the last one is done.
     bool next_frame();
-    int frame() const { return frame_; }        // 0, 1, 2, ...
-    glm::ivec2 size() const { return size_; }   // of the picture in pixels; a window may change it between frames
-    shared::CameraData camera() const;          // this frame's
+    int frame() const { return frame_; }       // 0, 1, 2, ...
+    glm::ivec2 size() const { return size_; }  // of the picture in pixels; in a window another one from frame to frame
+    shared::CameraData camera() const;         // this frame's
     // How many pictures of the same thing there have been since camera, view, size, a parameter or `light` changed: 0 for the
     // first. Always 0 without `accumulate`, and for views that show no light. Each such sample has a camera of its own, moved
     // by less than a pixel.
     int sample(bool accumulate, Revision light);
+    // This frame's picture is not the last word, though nothing changes: a window draws another.
+    void expect_more() { expects_more_ = true; }
     const Camera& scene_camera() const { return camera_; }  // the same, as the path tracer takes it
-    const View& view() const;                   // this frame's
+    const View& view() const;                               // this frame's
     bool shows(const std::string& view_name) const { return view().name == view_name; }
 
     // Do and time one pass (pass_timer.hpp), which must not time another.
@@ -53,17 +69,14 @@ public:
     template <typename Work>
     void pass(const std::string& name, Scope scope, Work work)
     {
-        timer_.time(
-            name, scope,
-            [&] {
-                if constexpr (std::is_void_v<decltype(work())>) {
-                    work();
-                    return true;
-                } else {
-                    return work();
-                }
-            },
-            statistics_);
+        time_pass(name, scope, [&] {
+            if constexpr (std::is_void_v<decltype(work())>) {
+                work();
+                return true;
+            } else {
+                return work();
+            }
+        });
     }
     template <typename Work>
     void pass(const std::string& name, Work work)
@@ -81,7 +94,25 @@ public:
 
 private:
     struct Window;
-    void write_picture(const gl::Texture& linear, const gl::Texture& display) const;
+    struct GivenUp {};  // thrown through a frame that nobody wants any more
+    void time_pass(const std::string& name, Scope scope, const std::function<bool()>& work);
+    void write_picture(const std::filesystem::path& file, const gl::Texture& linear, const gl::Texture& display) const;
+
+    // In a window alone:
+    void start_window();
+    bool next_window_frame();
+    bool take_requests();
+    bool is_outdated() const;
+    void look_after_window();
+    void time_pass_in_window(const std::string& name, Scope scope, const std::function<bool()>& work);
+    bool undo_values(const std::exception& fault);
+    void build_panel();
+    void refresh_panel();
+    void show_meanwhile_again();
+    void show_in_window(const gl::Texture& display);
+    void save_screenshot();
+    void set_title(const std::string& doing);
+    void trace(const char* what);
 
     ProgramInfo info_;
     Options options_;
@@ -95,6 +126,7 @@ private:
     glm::ivec2 size_;
     std::size_t view_index_ = 0;
     int frame_ = -1, sample_ = 0;
+    bool accumulates_ = false, expects_more_ = false;  // this frame
     MadeFrom<glm::mat4, glm::ivec2, std::size_t, std::vector<double>, bool, Revision> seen_;
     const gl::Texture* linear_ = nullptr;
     const gl::Texture* display_ = nullptr;

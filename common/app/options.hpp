@@ -3,13 +3,13 @@
 
 #include <exception>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "app/parameters.hpp"
+#include "app/preset.hpp"
 
 namespace conebook {
 
@@ -28,24 +28,29 @@ std::vector<View> joined(std::vector<View> first, const std::vector<View>& secon
 
 // What a chapter's program says of itself.
 struct ProgramInfo {
-    std::string name;  // "08_diffuse_cones"
+    std::string name;         // "08_diffuse_cones"
     std::vector<View> views;  // the first is the default
     ParameterTable parameters;
 };
 
 struct Options {
     std::filesystem::path scene;
-    std::filesystem::path output;  // empty: nothing is written
-    std::filesystem::path stats;   // empty: not written
-    std::filesystem::path root;    // the folder that holds shaders/ and assets/
+    std::filesystem::path output;        // empty: nothing is written
+    std::filesystem::path stats;         // empty: not written
+    std::filesystem::path preset;        // empty: none
+    std::filesystem::path save_preset;   // empty: not written
+    std::filesystem::path root;          // the folder that holds shaders/ and assets/
+    std::filesystem::path trace_frames;  // empty: not written
     bool headless = false;
-    std::string device;            // for Context::headless
+    std::string device;  // for Context::headless
     bool print_stats = false;
     glm::ivec2 size{0};
     int frames = 1;
     bool frames_given = false;
     std::string view;
-    std::optional<int> camera;
+    CameraChoice camera;
+    bool camera_from_preset = false;
+    std::vector<LightChoice> lights;  // of the preset
 };
 
 // Not an error: the program has said what it was asked (--help, --list-views) and ends with this code.
@@ -54,7 +59,8 @@ struct ExitRequest : std::exception {
     int code;
 };
 
-// Parse argv, apply every --set to info.parameters. Throws std::runtime_error with one line, or ExitRequest.
+// Parse argv; info.parameters get the values of --preset, then every --set. Throws std::runtime_error with one line,
+// also for files that could not be written or would replace each other, or ExitRequest.
 Options parse_options(int argc, char** argv, ProgramInfo& info);
 
 }  // namespace conebook

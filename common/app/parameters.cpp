@@ -1,8 +1,10 @@
 #include "app/parameters.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <stdexcept>
 
 namespace conebook {
@@ -39,11 +41,23 @@ double parse_number(const std::string& name, const std::string& text)
         used = 0;
     }
     if (text.empty() || used != text.size() || !std::isfinite(value))
-        throw std::runtime_error("--set " + name + "=" + text + ": not a finite number");
+        throw std::runtime_error(name + "=" + text + ": not a finite number");
     return value;
 }
 
 }  // namespace
+
+double Parameter::value() const
+{
+    return as_float != nullptr ? double(*as_float) : as_int != nullptr ? double(*as_int) : double(*as_bool);
+}
+
+void Parameter::set(double value) const
+{
+    if (as_float != nullptr) *as_float = float(value);
+    if (as_int != nullptr) *as_int = int(value);
+    if (as_bool != nullptr) *as_bool = value != 0.0;
+}
 
 std::string Parameter::value_text(double value) const
 {
@@ -108,11 +122,19 @@ void ParameterTable::set(const std::string& assignment)
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
         throw std::runtime_error("--set " + assignment + ": expected NAME=VALUE");
-    const std::string name = assignment.substr(0, equals), text = assignment.substr(equals + 1);
+    try {
+        set(assignment.substr(0, equals), assignment.substr(equals + 1));
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(std::string("--set ") + error.what());
+    }
+}
+
+void ParameterTable::set(const std::string& name, const std::string& text)
+{
     const auto found = std::find_if(parameters_.begin(), parameters_.end(),
                                     [&](const Parameter& p) { return p.name == name; });
     if (found == parameters_.end())
-        throw std::runtime_error("--set " + name + ": unknown parameter; --list-params names those of this chapter");
+        throw std::runtime_error(name + ": unknown parameter; --list-params names those of this chapter");
 
     if (found->as_bool != nullptr && (text == "on" || text == "true" || text == "off" || text == "false")) {
         *found->as_bool = text == "on" || text == "true";
@@ -125,27 +147,41 @@ void ParameterTable::set(const std::string& assignment)
     }
     const bool out_of_choices = !found->choices.empty();
     if (out_of_choices)
-        throw std::runtime_error("--set " + name + "=" + text + ": must be one of " + found->range_text());
+        throw std::runtime_error(name + "=" + text + ": must be one of " + found->range_text());
     const double value = parse_number(name, text);
     if (value < found->min || value > found->max)
-        throw std::runtime_error("--set " + name + "=" + text + ": out of range " + found->range_text() +
+        throw std::runtime_error(name + "=" + text + ": out of range " + found->range_text() +
                                  (found->unit.empty() ? "" : " " + found->unit));
     if (!found->values.empty() && std::find(found->values.begin(), found->values.end(), value) == found->values.end())
-        throw std::runtime_error("--set " + name + "=" + text + ": must be one of " + found->range_text());
+        throw std::runtime_error(name + "=" + text + ": must be one of " + found->range_text());
     const bool whole = found->as_int != nullptr || found->as_bool != nullptr;
     if (whole && value != std::floor(value))
-        throw std::runtime_error("--set " + name + "=" + text + ": must be a whole number");
-    if (found->as_float != nullptr) *found->as_float = float(value);
-    if (found->as_int != nullptr) *found->as_int = int(value);
-    if (found->as_bool != nullptr) *found->as_bool = value != 0.0;
+        throw std::runtime_error(name + "=" + text + ": must be a whole number");
+    found->set(value);
 }
 
 std::vector<double> ParameterTable::values() const
 {
     std::vector<double> all;
-    for (const Parameter& p : parameters_)
-        all.push_back(p.as_float != nullptr ? double(*p.as_float) : p.as_int != nullptr ? double(*p.as_int) : double(*p.as_bool));
+    for (const Parameter& p : parameters_) all.push_back(p.value());
     return all;
+}
+
+void ParameterTable::set_values(const std::vector<double>& values)
+{
+    for (std::size_t i = 0; i < parameters_.size(); ++i) parameters_[i].set(values[i]);
+}
+
+std::string ParameterTable::changed() const
+{
+    std::string out;
+    for (const Parameter& p : parameters_) {
+        if (p.value() == p.default_value) continue;
+        char number[32];
+        const auto end = p.as_float != nullptr ? std::to_chars(number, std::end(number), *p.as_float).ptr : number;
+        out += " " + p.name + "=" + (p.as_float != nullptr ? std::string(number, end) : p.value_text(p.value()));
+    }
+    return out;
 }
 
 std::string ParameterTable::listing() const

@@ -15,6 +15,8 @@ struct Parameter {
     std::vector<std::string> choices;     // with as_int: its values by name, 0, 1, 2, ...
     std::vector<int> values;              // with as_int and no choices: the only ones allowed, if any
     double default_value = 0.0;
+    double value() const;
+    void set(double value) const;  // into the field; must be one of those allowed
     std::string value_text(double value) const;
     std::string range_text() const;
 };
@@ -29,10 +31,16 @@ public:
     void add(const std::string& name, bool& field, const std::string& help);
     void add(const std::string& name, int& field, std::vector<std::string> choices, const std::string& help);
 
-    // "NAME=VALUE". Throws std::runtime_error for an unknown name, a value that is no finite number or out of range.
+    // "NAME=VALUE" of the command line. Throws as the other one does, with --set before the name.
     void set(const std::string& assignment);
+    // Throws std::runtime_error that begins with the name when no parameter is called so, and when the value is no finite
+    // number, out of range or none of the choices.
+    void set(const std::string& name, const std::string& text);
     const std::vector<Parameter>& all() const { return parameters_; }
     std::vector<double> values() const;  // of all, in their order
+    void set_values(const std::vector<double>& values);  // the same, as values() gives them
+    // " NAME=VALUE" of each that is not the default, as set() takes it, to the last bit.
+    std::string changed() const;
     // One line a parameter: name, default, range, unit, help.
     std::string listing() const;
 

@@ -7,6 +7,9 @@ namespace conebook {
 void PassTimer::time(const std::string& pass, Scope scope, const std::function<bool()>& work, Statistics& statistics)
 {
     const gl::DebugGroup group(pass);
+    // What a pass stores must not overtake what the ones before still read of it, be it the last frame's picture: stores
+    // wait for all accesses before these barriers (OpenGL 4.5, 7.12.2). What they wrote, each pass makes visible itself.
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     if (clock_ == Clock::cpu_around_finish) {
         glFinish();
         const auto start = std::chrono::steady_clock::now();
@@ -23,12 +26,21 @@ void PassTimer::time(const std::string& pass, Scope scope, const std::function<b
     }
     pending_.push_back({pass, scope, frame_, std::move(unused_.back())});
     unused_.pop_back();
+    bool ran = false;
+    const auto end = [&] {
+        glEndQuery(GL_TIME_ELAPSED);
+        if (ran) return;
+        unused_.push_back(std::move(pending_.back().query));
+        pending_.pop_back();
+    };
     glBeginQuery(GL_TIME_ELAPSED, pending_.back().query.id());
-    const bool ran = work();
-    glEndQuery(GL_TIME_ELAPSED);
-    if (ran) return;
-    unused_.push_back(std::move(pending_.back().query));
-    pending_.pop_back();
+    try {
+        ran = work();
+    } catch (...) {
+        end();
+        throw;
+    }
+    end();
 }
 
 void PassTimer::end_frame(Statistics& statistics)

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
-#include <stdexcept>
 
 #include <nlohmann/json.hpp>
+
+#include "image/write_file.hpp"
 
 namespace conebook {
 
@@ -18,14 +18,24 @@ double median(std::vector<double> values)
     return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
+double minimum(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
+
+}  // namespace
+
 const char* scope_name(Scope scope)
 {
     return scope == Scope::scene ? "scene" : scope == Scope::light ? "light" : "camera";
 }
 
-double minimum(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
-
-}  // namespace
+std::vector<PassTime> Statistics::last_times() const
+{
+    std::vector<PassTime> all;
+    for (const std::string& name : pass_order_) {
+        const Pass& pass = passes_.at(name);
+        all.push_back({name, pass.scope, pass.times_ms.back()});
+    }
+    return all;
+}
 
 void Statistics::add_time(const std::string& pass, Scope scope, double milliseconds)
 {
@@ -54,22 +64,11 @@ void Statistics::write_json(const std::filesystem::path& file) const
     json["resources"] = nlohmann::json::array();
     for (const gl::Resource& r : resources_) json["resources"].push_back({{"name", r.name}, {"bytes", r.bytes}});
     json["needed"] = nlohmann::json::array();
-    for (const Need& n : needs_)
-        json["needed"].push_back({{"name", n.name}, {"used", n.used}, {"reason", n.reason}});
+    for (const Need& n : needs_) json["needed"].push_back({{"name", n.name}, {"used", n.used}, {"reason", n.reason}});
     json["counts"] = nlohmann::json::array();
-    for (const Count& c : counts_)
-        json["counts"].push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}});
+    for (const Count& c : counts_) json["counts"].push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}});
 
-    const std::filesystem::path unfinished = file.string() + ".part";
-    std::ofstream out(unfinished);
-    out << json.dump(1) << "\n";
-    out.close();
-    std::error_code error;
-    if (out) std::filesystem::rename(unfinished, file, error);
-    if (!out || error) {
-        std::filesystem::remove(unfinished, error);
-        throw std::runtime_error(file.string() + ": cannot be written");
-    }
+    write_file(file, json.dump(1) + "\n");
 }
 
 std::string Statistics::table() const

@@ -29,10 +29,19 @@ struct Count {
 
 // What the result of a pass depends on: the geometry and materials of the scene; its lights too; the camera too.
 enum class Scope { scene, light, camera };
+const char* scope_name(Scope scope);
+
+struct PassTime {
+    std::string pass;
+    Scope scope = Scope::camera;
+    double milliseconds = 0.0;
+};
 
 class Statistics {
 public:
     void add_time(const std::string& pass, Scope scope, double milliseconds);
+    // Of each pass the last time, in the order in which they first ran.
+    std::vector<PassTime> last_times() const;
     // What was never made has no bytes and is left out.
     void add_resources(const std::vector<gl::Resource>& resources)
     {

@@ -1,5 +1,6 @@
 #include "gl/gpu_scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -164,7 +165,28 @@ GpuScene::GpuScene(const Scene& scene)
         materials.push_back(material_data(m));
         has_emission_ = has_emission_ || m.emission != glm::vec3(0.0f) || m.unlit;
     }
+    for (const Node& node : scene.nodes) may_move_ = may_move_ || (node.dynamic && node.vertices.count > 0);
     material_buffer_ = gl::Buffer("materials", materials);
+    material_uses_.resize(materials.size());
+    std::vector<GLuint> triangle_materials(triangle_count_, 0u);
+    for (const Draw& draw : scene.draws) {
+        const bool double_sided = scene.materials[std::size_t(draw.material)].double_sided;
+        const GLuint word = GLuint(draw.material) | (double_sided ? shared::kTriangleDoubleSided : 0u);
+        std::fill_n(triangle_materials.begin() + draw.first_index / 3, draw.index_count / 3, word);
+        MaterialUse& use = material_uses_[std::size_t(draw.material)];
+        use.triangles += draw.index_count / 3;
+        for (std::uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3) {
+            const auto corner = [&](std::uint32_t k) { return scene.vertices[scene.indices[i + k]].position; };
+            const glm::vec3 a = corner(0), b = corner(1), c = corner(2);
+            const glm::vec3 sides = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+            const glm::vec3 areas = 0.5f * glm::abs(glm::cross(b - a, c - a));
+            use.box_sides_m += double(sides.x + sides.y + sides.z);
+            use.seen_areas_m2 += double(areas.x + areas.y + areas.z);
+        }
+        for (std::uint32_t i = 0; i < draw.index_count && !use.vertex_alpha; ++i)
+            use.vertex_alpha = scene.vertices[scene.indices[draw.first_index + i]].color.a != 1.0f;
+    }
+    triangle_material_buffer_ = gl::Buffer("materials of triangles", triangle_materials);
     light_buffer_ = light_buffer(scene.lights);
 
     struct Attribute {
@@ -217,24 +239,17 @@ void GpuScene::set_lights(const std::vector<Light>& lights)
     ++lights_revision_;
 }
 
-void GpuScene::bind_buffers() const
-{
-    light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightBinding);
-    vertex_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVertexBinding);
-    index_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kIndexBinding);
-}
-
 void GpuScene::bind_lights(const gl::Program& program) const
 {
     light_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLightBinding);
     program.set("light_count", int(lights_.size()));
 }
 
-void GpuScene::bind_material(const gl::Program& program, int material) const
+void GpuScene::bind_material(std::size_t material) const
 {
     glBindBufferRange(GL_UNIFORM_BUFFER, shared::kMaterialBlock, material_buffer_.id(),
                       GLintptr(material) * GLintptr(kMaterialStride), sizeof(shared::MaterialData));
-    const auto& bindings = bindings_[std::size_t(material)];
+    const auto& bindings = bindings_[material];
     for (GLuint unit = 0; unit < bindings.size(); ++unit) {
         const BoundTexture& bound = bindings[unit];
         glBindTextureUnit(unit, bound.texture >= 0 ? textures_[std::size_t(bound.texture)].id() : white_.id());
@@ -252,20 +267,18 @@ void unbind_samplers()
 void GpuScene::draw(const gl::Program& program, Culling culling) const
 {
     program.use();
-    bind_buffers();
-    program.set("light_count", int(lights_.size()));
+    bind_lights(program);
     glBindVertexArray(vertex_array_.id());
     glCullFace(GL_BACK);
     int bound_material = -1;
     for (const Draw& draw : draws_) {
         if (draw.material != bound_material) {
             bound_material = draw.material;
-            bind_material(program, draw.material);
+            bind_material(std::size_t(draw.material));
             const bool cull = culling == Culling::back_of_single_sided &&
                               !materials_[std::size_t(draw.material)].double_sided;
             (cull ? glEnable : glDisable)(GL_CULL_FACE);
         }
-        program.set("first_index", draw.first_index);
         glDrawElements(GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT,
                        reinterpret_cast<const void*>(std::size_t(draw.first_index) * sizeof(GLuint)));
     }
@@ -273,29 +286,52 @@ void GpuScene::draw(const gl::Program& program, Culling culling) const
     unbind_samplers();
 }
 
-void GpuScene::dispatch_triangles(const gl::Program& program) const
+void GpuScene::draw_geometry(const gl::Program& program) const
 {
-    constexpr GLuint kMaxGroups = 65535;  // the least that OpenGL 4.5 promises (table 23.66)
     program.use();
-    bind_buffers();
-    for (const Draw& draw : draws_) {
-        bind_material(program, draw.material);
-        const GLuint triangles = draw.index_count / 3;
-        for (GLuint first = 0; first < triangles; first += kMaxGroups) {
-            const GLuint count = std::min(kMaxGroups, triangles - first);
-            program.set("first_index", draw.first_index + 3 * first);
-            program.set("triangle_count", count);
-            glDispatchCompute(count, 1, 1);
-        }
+    glBindVertexArray(vertex_array_.id());
+    glDrawElements(GL_TRIANGLES, GLsizei(3 * triangle_count_), GL_UNSIGNED_INT, nullptr);
+}
+
+void GpuScene::bind_triangles() const
+{
+    gl::require_storage("vertices", vertex_buffer_.bytes() / sizeof(Vertex), sizeof(Vertex), "a smaller scene");
+    gl::require_storage("triangles", triangle_count_, 3 * sizeof(GLuint), "a smaller scene");
+    vertex_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVertexBinding);
+    index_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kIndexBinding);
+    triangle_material_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kTriangleMaterialBinding);
+}
+
+void GpuScene::for_each_material(const std::function<void(std::size_t)>& run) const
+{
+    for (std::size_t material = 0; material < materials_.size(); ++material) {
+        bind_material(material);
+        run(material);
     }
     unbind_samplers();
+}
+
+std::vector<Triangle> GpuScene::triangles() const
+{
+    const auto vertices = vertex_buffer_.read<Vertex>();
+    const auto indices = index_buffer_.read<std::uint32_t>();
+    std::vector<Triangle> triangles;
+    triangles.reserve(triangle_count_);
+    for (const Draw& draw : draws_) {
+        const bool double_sided = materials_[std::size_t(draw.material)].double_sided;
+        for (std::size_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3)
+            triangles.push_back(
+                {{vertices[indices[i]].position, vertices[indices[i + 1]].position, vertices[indices[i + 2]].position},
+                 double_sided});
+    }
+    return triangles;
 }
 
 std::vector<gl::Resource> GpuScene::resources() const
 {
     std::size_t texture_bytes = 0;
     for (const gl::Texture& texture : textures_) texture_bytes += texture.bytes();
-    return {{"scene geometry", vertex_buffer_.bytes() + index_buffer_.bytes()},
+    return {{"scene geometry", vertex_buffer_.bytes() + index_buffer_.bytes() + triangle_material_buffer_.bytes()},
             {"scene textures", texture_bytes},
             {"scene materials and lights", material_buffer_.bytes() + light_buffer_.bytes()}};
 }

@@ -86,14 +86,21 @@ Buffer::Buffer(const std::string& label, std::size_t bytes, const void* data) : 
     if (data == nullptr) clear();
 }
 
+// What shaders write is not ordered against commands that write the same memory, so that these wait for it first
+// (OpenGL 4.5, 7.12.2: BUFFER_UPDATE and TEXTURE_UPDATE barriers, for reading and for writing). The other way round
+// shaders see what earlier commands wrote without a barrier.
 void Buffer::write(std::size_t offset, std::size_t bytes, const void* data) const
 {
-    if (bytes > 0) glNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), data);
+    if (bytes == 0) return;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), data);
 }
 
 void Buffer::clear() const
 {
-    if (*this) glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    if (!*this) return;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
 void Buffer::bind(GLenum target, GLuint index) const { glBindBufferBase(target, index, id()); }
@@ -105,13 +112,29 @@ void Buffer::read_bytes(std::size_t offset, std::size_t bytes, void* out) const
     glGetNamedBufferSubData(id(), GLintptr(offset), GLsizeiptr(bytes), out);
 }
 
+std::size_t most_storage_bytes()
+{
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    return std::size_t(most);
+}
+
+void require_storage(const std::string& items, std::size_t count, std::size_t bytes_per_item, const std::string& remedy)
+{
+    const std::size_t most = most_storage_bytes();
+    if (count * bytes_per_item <= most) return;
+    throw std::runtime_error(std::to_string(count) + " " + items + " of " + std::to_string(bytes_per_item) +
+                             " bytes are more than a storage block of this driver holds (" +
+                             std::to_string(most >> 20) + " MiB, GL_MAX_SHADER_STORAGE_BLOCK_SIZE); use " + remedy);
+}
+
 Texture::Texture(const std::string& label, GLenum target, GLenum internal_format, glm::ivec3 size, int levels)
     : target_(target), format_(internal_format), size_(size), levels_(levels), label_(label)
 {
     GLuint id = 0;
     glCreateTextures(target, 1, &id);
     handle_ = Handle<delete_texture>(id);
-    if (target == GL_TEXTURE_2D || target == GL_TEXTURE_CUBE_MAP)
+    if (target == GL_TEXTURE_2D)
         glTextureStorage2D(id, levels, internal_format, size.x, size.y);
     else
         glTextureStorage3D(id, levels, internal_format, size.x, size.y, size.z);
@@ -131,7 +154,7 @@ std::size_t Texture::bytes() const
         const bool is_3d = target_ == GL_TEXTURE_3D;
         texels += std::size_t(s.x) * std::size_t(s.y) * std::size_t(is_3d ? s.z : std::max(size_.z, 1));
     }
-    return texels * format_info(format_).bytes_per_texel * (target_ == GL_TEXTURE_CUBE_MAP ? 6 : 1);
+    return texels * format_info(format_).bytes_per_texel;
 }
 
 void Texture::set_filter(GLenum minification, GLenum magnification) const
@@ -148,6 +171,7 @@ void Texture::set_wrap(GLenum wrap) const
 
 void Texture::clear() const
 {
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     const FormatInfo info = format_info(format_);
     for (int level = 0; level < levels_; ++level) glClearTexImage(id(), level, info.format, info.type, nullptr);
 }
@@ -244,10 +268,12 @@ void Framebuffer::attach_depth_layer(const Texture& depth, int layer) const
     glNamedFramebufferTextureLayer(id(), GL_DEPTH_ATTACHMENT, depth.id(), 0, layer);
 }
 
-void Framebuffer::bind(glm::ivec2 viewport_size) const
+void Framebuffer::bind(glm::ivec2 viewport_size) const { bind(glm::ivec2(0), viewport_size); }
+
+void Framebuffer::bind(glm::ivec2 viewport_corner, glm::ivec2 viewport_size) const
 {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, id());
-    glViewport(0, 0, viewport_size.x, viewport_size.y);
+    glViewport(viewport_corner.x, viewport_corner.y, viewport_size.x, viewport_size.y);
 }
 
 VertexArray::VertexArray()
@@ -257,10 +283,17 @@ VertexArray::VertexArray()
     handle_ = Handle<delete_vertex_array>(id);
 }
 
-void draw_fullscreen_triangle(const VertexArray& empty)
+glm::uvec3 group_counts(std::size_t items, GLuint group)
 {
-    glBindVertexArray(empty.id());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    constexpr GLuint kMostInRow = 65535;
+    const GLuint groups = group_count(items, group), rows = std::max(group_count(groups, kMostInRow), 1u);
+    return {group_count(groups, rows), rows, 1};
+}
+
+void dispatch_items(std::size_t items, GLuint group)
+{
+    const glm::uvec3 groups = group_counts(items, group);
+    if (items > 0) glDispatchCompute(groups.x, groups.y, groups.z);
 }
 
 }  // namespace conebook::gl

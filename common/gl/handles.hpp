@@ -75,10 +75,10 @@ public:
     explicit operator bool() const { return id() != 0; }
     Resource resource() const { return {label_, bytes_}; }
 
+    // These wait for what shaders wrote before: they issue the barrier.
     void write(std::size_t offset, std::size_t bytes, const void* data) const;
     void clear() const;  // all bits 0
-    void bind(GLenum target, GLuint index) const;
-    // Copy back to the CPU; issues the barrier that shader writes need first.
+    // Copy back to the CPU.
     template <typename T>
     std::vector<T> read() const
     {
@@ -94,6 +94,8 @@ public:
         return value;
     }
 
+    void bind(GLenum target, GLuint index) const;
+
 private:
     void read_bytes(std::size_t offset, std::size_t bytes, void* out) const;
     Handle<delete_buffer> handle_;
@@ -101,7 +103,13 @@ private:
     std::string label_;
 };
 
-// Immutable storage. size.z is the depth (3D) or the number of layers (arrays; faces for cube map arrays).
+// What a storage block of this driver holds; OpenGL 4.5 promises 128 MiB (chapter 23, MAX_SHADER_STORAGE_BLOCK_SIZE).
+std::size_t most_storage_bytes();
+// Throws std::runtime_error, which names the items, the limit and the remedy, where that is less than `count` items.
+void require_storage(const std::string& items, std::size_t count, std::size_t bytes_per_item,
+                     const std::string& remedy);
+
+// Immutable storage. size.z is the depth (3D) or the number of layers (arrays).
 class Texture {
 public:
     Texture() = default;
@@ -119,7 +127,7 @@ public:
     // Filtering and wrapping; mipmapped minification is trilinear between levels.
     void set_filter(GLenum minification, GLenum magnification) const;
     void set_wrap(GLenum wrap) const;
-    void clear() const;  // every level to zero
+    void clear() const;  // every level to zero; waits for what shaders wrote before
     void bind(GLuint unit) const;
     void bind_image(GLuint unit, int level, GLenum access) const { bind_image(unit, level, access, format_); }
     void bind_image(GLuint unit, int level, GLenum access, GLenum as_format) const;
@@ -150,6 +158,7 @@ public:
     GLuint id() const { return handle_.id(); }
     void attach_depth_layer(const Texture& depth, int layer) const;
     void bind(glm::ivec2 viewport_size) const;  // binds for drawing and sets the viewport to the whole of it
+    void bind(glm::ivec2 viewport_corner, glm::ivec2 viewport_size) const;
 
 private:
     void check(const std::string& label) const;
@@ -165,10 +174,13 @@ private:
     Handle<delete_vertex_array> handle_;
 };
 
-// A triangle that covers the viewport: three vertices from gl_VertexID, no buffers.
-void draw_fullscreen_triangle(const VertexArray& empty);
-
 // Number of work groups of `group` that cover `items`.
 inline GLuint group_count(std::size_t items, GLuint group) { return GLuint((items + group - 1) / group); }
+
+// The same in rows of at most 65,535 work groups, the most a side that OpenGL 4.5 promises (chapter 23,
+// MAX_COMPUTE_WORK_GROUP_COUNT); shaders find their place with common/item_index.glsl. Also an indirect dispatch.
+glm::uvec3 group_counts(std::size_t items, GLuint group);
+// Runs the program in use over a list, one thread an item; nothing where there are none.
+void dispatch_items(std::size_t items, GLuint group);
 
 }  // namespace conebook::gl

@@ -17,6 +17,7 @@ struct Program::State {
     GLuint id = 0;
     std::vector<std::string> files;
     Defines defines;
+    std::shared_ptr<const std::function<void()>> between_slices;
     ~State()
     {
         if (id != 0) glDeleteProgram(id);
@@ -134,6 +135,7 @@ GLuint link(const std::filesystem::path& root, const std::vector<std::string>& f
 
 GLuint Program::id() const { return state_ ? state_->id : 0; }
 void Program::use() const { glUseProgram(id()); }
+const std::function<void()>& Program::between_slices() const { return *state_->between_slices; }
 
 namespace {
 GLint location(GLuint program, const char* name) { return glGetUniformLocation(program, name); }
@@ -161,7 +163,9 @@ Shaders::Shaders(std::filesystem::path shader_root) : root_(std::move(shader_roo
 
 Program Shaders::load(const std::vector<std::string>& files, const Defines& defines)
 {
+    if (*between_slices_) (*between_slices_)();
     auto state = std::make_shared<Program::State>();
+    state->between_slices = between_slices_;
     state->files = files;
     state->defines = defines;
     state->id = link(root_, files, defines);

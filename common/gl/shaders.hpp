@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ public:
     void set(const char* name, glm::ivec3 value) const;
     void set(const char* name, const glm::mat4& value) const;
     void set(const char* name, const std::vector<glm::vec4>& values) const;
+    // Shaders::set_between_slices; null: work with this program need not be sliced.
+    const std::function<void()>& between_slices() const;
 
 private:
     friend class Shaders;
@@ -48,9 +51,13 @@ public:
     Program load(const std::vector<std::string>& files, const Defines& defines = {});
     // Compile again all programs still in use. On a fault the old programs stay and the fault is thrown.
     void reload();
+    // What all programs are to do between the slices of a long draw (pixel_pass.hpp), and what load() does before
+    // its work: look after a window, say. It may throw, which gives up the draw.
+    void set_between_slices(std::function<void()> call) { *between_slices_ = std::move(call); }
 
 private:
     std::filesystem::path root_;
+    std::shared_ptr<std::function<void()>> between_slices_ = std::make_shared<std::function<void()>>();
     std::vector<std::weak_ptr<Program::State>> programs_;
 };
 

@@ -11,7 +11,8 @@
 #include <tuple>
 
 #include <tinyexr.h>
-#include <unistd.h>
+
+#include "image/write_file.hpp"
 
 #include "image/codecs.hpp"
 
@@ -40,34 +41,9 @@ Bytes read_bytes(const std::filesystem::path& file)
     return bytes;
 }
 
-// The bytes go to a temporary in the same folder (rename is atomic within a file system only), then take its name.
 void write_bytes(const std::filesystem::path& file, const unsigned char* data, std::size_t size)
 {
-    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-    std::error_code error;
-    if (!std::filesystem::is_directory(folder, error))
-        throw fault(file, "cannot be written: folder " + folder.string() + " does not exist");
-    if (std::filesystem::is_directory(file, error)) throw fault(file, "cannot be written: it is a folder");
-    std::filesystem::path temporary = folder / ".";
-    temporary += file.filename();
-    temporary += '.';
-    temporary += std::to_string(getpid());
-    temporary += ".part";
-    bool good = false;
-    {
-        std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-        if (!out) throw fault(file, "cannot be written: no permission in folder " + folder.string());
-        out.write(reinterpret_cast<const char*>(data), std::streamsize(size));
-        out.close();
-        good = bool(out);
-    }
-    if (good) std::filesystem::rename(temporary, file, error);
-    if (!good || error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw fault(file,
-                    good ? "cannot be written: " + error.message() : "cannot be written: disk full or write error");
-    }
+    write_file(file, {reinterpret_cast<const char*>(data), size});
 }
 
 template <typename Picture>

@@ -5,11 +5,11 @@
 #include <cmath>
 
 namespace conebook {
-namespace {
 
-// IEC 61966-2-1:1999, section 5.2.
 double linear_from_srgb(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
 double srgb_from_linear(double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055; }
+
+namespace {
 
 // What of the `from` texels along a side falls into texel `index` of `to`: [first, last) and the share of the ends.
 struct Span {

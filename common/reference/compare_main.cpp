@@ -1,43 +1,19 @@
 // compare: every measure of the difference between a picture and its reference (compare_images.hpp).
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <stdexcept>
 #include <string>
 
-#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "image/write_file.hpp"
 #include "reference/compare_images.hpp"
 
 using namespace conebook;
 
 namespace {
-
-// To a temporary beside the target, then renamed: nothing is left half-written.
-void write_text(const std::filesystem::path& file, const std::string& text)
-{
-    const std::filesystem::path temporary = file.string() + "." + std::to_string(getpid()) + ".part";
-    std::error_code error;
-    {
-        std::ofstream out(temporary);
-        out << text;
-        out.close();
-        if (!out) {
-            std::filesystem::remove(temporary, error);
-            throw std::runtime_error(file.string() + ": cannot be written");
-        }
-    }
-    std::filesystem::rename(temporary, file, error);
-    if (error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw std::runtime_error(file.string() + ": cannot be written: " + error.message());
-    }
-}
 
 // JSON has no infinity: a ratio against a black reference becomes null.
 nlohmann::ordered_json number(double x)
@@ -115,7 +91,7 @@ int run(int argc, char** argv)
         if (m.noisy_reference)
             std::printf("the reference's noise is above a tenth of the error: render it with more samples\n");
     }
-    if (!json_file.empty()) write_text(json_file, json.dump(2) + "\n");
+    if (!json_file.empty()) write_file(json_file, json.dump(2) + "\n");
     if (!heatmap_file.empty()) write_png(heatmap_file, error_heatmap(image, reference));
     return 0;
 }

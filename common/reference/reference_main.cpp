@@ -10,20 +10,13 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include "image/picture_size.hpp"
 #include "reference/path_tracer.hpp"
 #include "reference/shared_light.hpp"
 
 using namespace conebook;
 
 namespace {
-
-void parse_size(const std::string& text, int& width, int& height)
-{
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 1 || height < 1 || width > 16384 ||
-        height > 16384)
-        throw std::runtime_error("--size " + text + ": expected WIDTHxHEIGHT, each 1 to 16384");
-}
 
 void show_progress(double done, double seconds)
 {
@@ -89,7 +82,9 @@ int run(int argc, char** argv)
     } catch (const CLI::ParseError& e) {
         throw std::runtime_error(e.what());
     }
-    parse_size(size, options.width, options.height);
+    const glm::ivec2 pixels = parse_picture_size(size);
+    options.width = pixels.x;
+    options.height = pixels.y;
     options.parts = {part_from_name(part)};
     if (write_parts) {
         if (shared || options.parts[0] != Part::final)

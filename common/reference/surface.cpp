@@ -3,18 +3,17 @@
 #include <array>
 #include <cmath>
 
+#include "image/resample.hpp"
+
 namespace conebook {
 namespace {
 
-// IEC 61966-2-1 sRGB to linear, for the 256 stored values.
+// sRGB to linear, for the 256 stored values.
 const std::array<float, 256>& srgb_to_linear()
 {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> t{};
-        for (int i = 0; i < 256; ++i) {
-            const double c = i / 255.0;
-            t[i] = float(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
-        }
+        for (int i = 0; i < 256; ++i) t[i] = float(linear_from_srgb(i / 255.0));
         return t;
     }();
     return table;
@@ -116,7 +115,7 @@ bool covers(const Scene& scene, const Material& material, const TrianglePoint& p
 
 glm::vec3 emitted_radiance(const Scene& scene, const Material& material, const TrianglePoint& point)
 {
-    if (material.unlit) return glm::vec3(base_color_at(scene, material, point));
+    if (material.unlit) return glm::clamp(glm::vec3(base_color_at(scene, material, point)), 0.0f, 1.0f);
     if (material.emission == glm::vec3(0.0f)) return glm::vec3(0.0f);
     return material.emission * glm::vec3(sample_slot(scene, material.emission_texture, point, true));
 }

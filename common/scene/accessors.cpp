@@ -33,8 +33,10 @@ int component_count(int type, const std::string& what)
             return 3;
         case TINYGLTF_TYPE_VEC4:
             return 4;
+        case TINYGLTF_TYPE_MAT4:
+            return 16;
     }
-    fail(what + " is a matrix, not a scalar or a vector");
+    fail(what + " is a matrix of 2 or 3 rows, which nothing in glTF needs");
 }
 
 template <class T>
@@ -172,6 +174,17 @@ glm::dvec4 AccessorReader::element(std::size_t i) const
         result[c] = load_component(bytes, component_type_, normalized_);
     }
     return result;
+}
+
+void AccessorReader::element(std::size_t i, float* out) const
+{
+    const std::uint8_t* bytes = address(i);
+    const std::size_t step = element_bytes_ / static_cast<std::size_t>(components_);
+    for (int c = 0; c < components_; ++c) {
+        out[c] = bytes ? static_cast<float>(
+                             load_component(bytes + static_cast<std::size_t>(c) * step, component_type_, normalized_))
+                       : 0.0f;
+    }
 }
 
 std::uint32_t AccessorReader::unsigned_element(std::size_t i) const

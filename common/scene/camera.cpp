@@ -96,51 +96,67 @@ Light read_light_type(const tinygltf::Light& source, const std::string& where, W
 
 }  // namespace
 
-std::vector<Camera> read_cameras(const Document& document, const std::vector<Instance>& nodes, glm::dvec3 origin_ws,
+bool place(Camera& camera, const glm::dmat4& world_from_node, glm::dvec3 origin_ws)
+{
+    const auto world_from_camera = rigid(world_from_node);
+    if (world_from_camera) camera.world_from_camera = glm::mat4(relative_to(*world_from_camera, origin_ws));
+    return world_from_camera.has_value();
+}
+
+bool place(Light& light, const glm::dmat4& world_from_node, glm::dvec3 origin_ws)
+{
+    const glm::dvec3 position = glm::dvec3(world_from_node[3]) - origin_ws;
+    const glm::dvec3 axis = -glm::dvec3(world_from_node[2]);  // it shines along the node's -z
+    const double length = glm::length(axis);
+    if (!is_finite(position) || !std::isfinite(length) || (length == 0.0 && light.type != LightType::point)) return false;
+    light.position = glm::vec3(position);
+    if (length > 0.0) light.direction = glm::vec3(axis / length);
+    return true;
+}
+
+std::vector<Camera> read_cameras(const Document& document, std::vector<Node>& nodes, glm::dvec3 origin_ws,
                                  Warnings& warnings)
 {
-    std::vector<Instance> ordered = nodes;
-    std::sort(ordered.begin(), ordered.end(), [](const Instance& a, const Instance& b) { return a.node < b.node; });
+    std::vector<Node*> ordered;
+    for (Node& node : nodes) ordered.push_back(&node);
+    std::sort(ordered.begin(), ordered.end(),
+              [](const Node* a, const Node* b) { return a->file_index < b->file_index; });
     std::vector<Camera> cameras;
-    for (const Instance& instance : ordered) {
-        const auto& node = document.model.nodes[static_cast<std::size_t>(instance.node)];
+    for (Node* carrier : ordered) {
+        const auto& node = document.model.nodes[static_cast<std::size_t>(carrier->file_index)];
         if (node.camera < 0) continue;
         const std::string where = "cameras[" + std::to_string(node.camera) + "]";
         Camera camera = read_lens(document.model.cameras.at(static_cast<std::size_t>(node.camera)), where, warnings);
-        const auto world_from_camera = rigid(instance.world_from_node);
-        if (!world_from_camera) {
+        if (!place(camera, carrier->world_from_node, origin_ws)) {
             warn(warnings, where + " is on a node without extent and is left out");
             continue;
         }
-        camera.world_from_camera = glm::mat4(relative_to(*world_from_camera, origin_ws));
         if (!is_finite(glm::dvec3(camera.world_from_camera[3]))) fail(where + " is placed beyond what a float holds");
         if (camera.name.empty()) camera.name = node.name;
+        carrier->camera = static_cast<int>(cameras.size());
         cameras.push_back(std::move(camera));
     }
     return cameras;
 }
 
-std::vector<Light> read_lights(const Document& document, const std::vector<Instance>& nodes, glm::dvec3 origin_ws,
+std::vector<Light> read_lights(const Document& document, std::vector<Node>& nodes, glm::dvec3 origin_ws,
                                Warnings& warnings)
 {
     std::vector<Light> lights;
-    for (const Instance& instance : nodes) {
-        const auto& node = document.model.nodes[static_cast<std::size_t>(instance.node)];
+    for (Node& carrier : nodes) {
+        const auto& node = document.model.nodes[static_cast<std::size_t>(carrier.file_index)];
         const auto extension = node.extensions.find("KHR_lights_punctual");
         if (extension == node.extensions.end()) continue;
         const int index = extension->second.Get("light").GetNumberAsInt();
         const std::string where = "lights[" + std::to_string(index) + "]";
         Light light = read_light_type(document.model.lights.at(static_cast<std::size_t>(index)), where, warnings);
-        const glm::dvec3 position = glm::dvec3(instance.world_from_node[3]) - origin_ws;
-        const glm::dvec3 axis = -glm::dvec3(instance.world_from_node[2]);  // it shines along the node's -z
-        const double length = glm::length(axis);
-        if (!is_finite(position) || !std::isfinite(length) || (length == 0.0 && light.type != LightType::point)) {
+        if (!place(light, carrier.world_from_node, origin_ws)) {
             warn(warnings, where + " is on a node without extent and is left out");
             continue;
         }
-        for (int c = 0; c < 3; ++c) light.position[c] = to_float(position[c], where + ": its position");
-        if (length > 0.0) light.direction = glm::vec3(axis / length);
+        if (!is_finite(glm::dvec3(light.position))) fail(where + " is placed beyond what a float holds");
         if (light.name.empty()) light.name = node.name;
+        carrier.light = static_cast<int>(lights.size());
         lights.push_back(std::move(light));
     }
     return lights;

@@ -313,6 +313,42 @@ void list_images(const json& root, Document& document)
     }
 }
 
+// A channel without a target node moves something that only an extension knows.
+void list_animations(const json& root, Document& document)
+{
+    for (const json& source : elements(root, "animations")) {
+        tinygltf::Animation animation;
+        animation.name = source.value("name", std::string());
+        for (const json& s : source.at("samplers")) {
+            tinygltf::AnimationSampler sampler;
+            sampler.input = s.at("input").get<int>();
+            sampler.output = s.at("output").get<int>();
+            sampler.interpolation = s.value("interpolation", std::string("LINEAR"));
+            animation.samplers.push_back(std::move(sampler));
+        }
+        for (const json& c : source.at("channels")) {
+            tinygltf::AnimationChannel channel;
+            channel.sampler = c.at("sampler").get<int>();
+            channel.target_node = c.at("target").value("node", -1);
+            channel.target_path = c.at("target").at("path").get<std::string>();
+            animation.channels.push_back(std::move(channel));
+        }
+        document.model.animations.push_back(std::move(animation));
+    }
+}
+
+void list_skins(const json& root, Document& document)
+{
+    for (const json& source : elements(root, "skins")) {
+        tinygltf::Skin skin;
+        skin.name = source.value("name", std::string());
+        skin.joints = source.at("joints").get<std::vector<int>>();
+        skin.inverseBindMatrices = source.value("inverseBindMatrices", -1);
+        skin.skeleton = source.value("skeleton", -1);
+        document.model.skins.push_back(std::move(skin));
+    }
+}
+
 }  // namespace
 
 void warn(Warnings& warnings, const std::string& line)
@@ -370,6 +406,7 @@ Document read_document(const std::filesystem::path& file, Warnings& warnings)
     for (const char* key : {"buffers", "images", "animations", "skins", "extras"}) slim.erase(key);
     const std::string text = slim.dump();
     tinygltf::TinyGLTF reader;
+    reader.SetStoreOriginalJSONForExtrasAndExtensions(true);
     std::string error, warning;
     if (!reader.LoadASCIIFromString(&document.model, &error, &warning, text.data(),
                                     static_cast<unsigned int>(text.size()), "") ||
@@ -378,6 +415,8 @@ Document read_document(const std::filesystem::path& file, Warnings& warnings)
     }
     read_buffers(root, container, document);
     list_images(root, document);
+    list_animations(root, document);
+    list_skins(root, document);
     return document;
 }
 

@@ -25,7 +25,14 @@ constexpr std::uint64_t max_vertices = 50'000'000;             // after instanci
 constexpr std::uint64_t max_image_pixels = 1u << 26;           // one image: 64 Mpx
 constexpr std::uint64_t max_total_pixels = 1u << 29;           // all images: 2 GiB as RGBA
 constexpr int max_image_side = 16384;                          // wider ones are shrunk: see images.cpp
+constexpr std::uint64_t max_animation_values = 1u << 26;       // floats of all animations: 256 MiB
+constexpr std::uint64_t max_morph_deltas = 1u << 24;           // vertices of all morph targets: 600 MiB
 constexpr int max_json_depth = 64;
+
+// m, the longest side of the scene's bounding box. In between, light does not depend on the scale (tested). Below, areas
+// of triangles and products of edges leave the range of floats in the voxelizers and in Embree; above, in Embree.
+constexpr double min_extent = 1e-6;
+constexpr double max_extent = 1e9;
 
 struct Document {
     tinygltf::Model model;         // model.buffers[i].data is filled; model.images hold only uri or bufferView

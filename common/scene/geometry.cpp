@@ -28,6 +28,7 @@ glm::vec3 unit_or_zero(glm::dvec3 v)
 void make_flat_normals(LocalMesh& mesh)
 {
     std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> source;
     vertices.reserve(mesh.indices.size());
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         glm::vec3 normal = unit_or_zero(area_normal(mesh.vertices, &mesh.indices[i]));
@@ -35,9 +36,12 @@ void make_flat_normals(LocalMesh& mesh)
         for (std::size_t corner = 0; corner < 3; ++corner) {
             vertices.push_back(mesh.vertices[mesh.indices[i + corner]]);
             vertices.back().normal = normal;
+            source.push_back(mesh.source[mesh.indices[i + corner]]);
         }
     }
     mesh.vertices = std::move(vertices);
+    mesh.source = std::move(source);
+    mesh.flat_normals = true;
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = static_cast<std::uint32_t>(i);
 }
 
@@ -115,7 +119,10 @@ void make_tangents(LocalMesh& mesh, const TextureSlot& texture)
             glm::vec3 tangent = unit_or_zero(sum.tangent - normal * glm::dot(normal, sum.tangent));
             if (tangent == glm::vec3(0.0f)) tangent = perpendicular(mesh.vertices[i].normal);
             sum.vertex = static_cast<std::uint32_t>(first ? i : mesh.vertices.size());
-            if (!first) mesh.vertices.push_back(mesh.vertices[i]);
+            if (!first) {
+                mesh.vertices.push_back(mesh.vertices[i]);
+                mesh.source.push_back(mesh.source[i]);
+            }
             mesh.vertices[sum.vertex].tangent = glm::vec4(tangent, side == 0 ? 1.0f : -1.0f);
             first = false;
         }

@@ -235,9 +235,11 @@ void check_mesh(const Object& mesh)
             }
         });
         primitive.object("extensions", [](const Object&) {});
-        if (primitive.has("targets") && !primitive.value["targets"].is_array()) {
-            fail(primitive.name("targets") + " is not an array");
-        }
+        primitive.objects("targets", [](const Object& target) {
+            for (auto& [name, accessor] : target.value.items()) {
+                target.check_reference(accessor, target.path + "." + name, "accessors");
+            }
+        });
     });
 }
 
@@ -292,6 +294,40 @@ void check_camera(const Object& camera)
     });
 }
 
+void check_animation(const Object& animation)
+{
+    animation.text("name");
+    animation.require("samplers");
+    animation.require("channels");
+    animation.objects("samplers", [](const Object& sampler) {
+        sampler.require("input");
+        sampler.require("output");
+        sampler.reference("input", "accessors");
+        sampler.reference("output", "accessors");
+        sampler.text("interpolation");
+    });
+    const std::size_t count = animation.value["samplers"].size();
+    animation.objects("channels", [&](const Object& channel) {
+        channel.require("sampler");
+        channel.require("target");
+        channel.integer("sampler", 0, static_cast<std::int64_t>(count) - 1);
+        channel.object("target", [](const Object& target) {
+            target.reference("node", "nodes");
+            target.require("path");
+            target.text("path");
+        });
+    });
+}
+
+void check_skin(const Object& skin)
+{
+    skin.text("name");
+    skin.require("joints");
+    skin.references("joints", "nodes");
+    skin.reference("inverseBindMatrices", "accessors");
+    skin.reference("skeleton", "nodes");
+}
+
 }  // namespace
 
 void check_gltf(json& root)
@@ -301,8 +337,8 @@ void check_gltf(json& root)
     file.texts("extensionsUsed");
     file.texts("extensionsRequired");
     // Containers first: what follows looks up elements in them.
-    for (const char* key : {"accessors", "buffers", "bufferViews", "cameras", "images", "materials", "meshes", "nodes",
-                            "samplers", "scenes", "skins", "textures"}) {
+    for (const char* key : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
+                            "meshes", "nodes", "samplers", "scenes", "skins", "textures"}) {
         file.objects(key, [](const Object& element) {
             if (element.has("extensions") && !element.value["extensions"].is_object()) {
                 fail(element.name("extensions") + " is not an object");
@@ -333,6 +369,8 @@ void check_gltf(json& root)
     file.objects("meshes", check_mesh);
     file.objects("cameras", check_camera);
     file.objects("nodes", check_node);
+    file.objects("animations", check_animation);
+    file.objects("skins", check_skin);
     file.objects("scenes", [](const Object& scene) {
         scene.text("name");
         scene.references("nodes", "nodes");

@@ -1,7 +1,9 @@
 // load_scene: glTF file -> Scene. Two walks over the instances: the first finds the bounding box in double precision,
 // the second writes vertices relative to its middle.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <map>
 #include <new>
@@ -12,12 +14,9 @@ namespace conebook {
 namespace gltf {
 namespace {
 
-// A position beyond this would overflow squared lengths in float (1e18^2 = 1e36).
-constexpr double largest_extent = 1e18;
-
 struct PlacedMesh {
     const LocalMesh* mesh = nullptr;
-    Instance instance;
+    std::size_t node = 0;  // index into Scene::nodes
     std::string name;
 };
 
@@ -50,14 +49,14 @@ private:
 };
 
 // Refuse a scene that is too large by what its accessors claim, before anything is read.
-void check_size(const Document& document, const std::vector<Instance>& nodes)
+void check_size(const Document& document, const std::vector<Node>& nodes)
 {
     const auto element_count = [&](int accessor) {
         return static_cast<std::uint64_t>(document.model.accessors.at(static_cast<std::size_t>(accessor)).count);
     };
-    std::uint64_t triangles = 0, vertices = 0;
-    for (const Instance& instance : nodes) {
-        const int mesh = document.model.nodes[static_cast<std::size_t>(instance.node)].mesh;
+    std::uint64_t triangles = 0, vertices = 0, deltas = 0;
+    for (const Node& node : nodes) {
+        const int mesh = document.model.nodes[static_cast<std::size_t>(node.file_index)].mesh;
         if (mesh < 0) continue;
         for (const auto& primitive : document.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
             const auto position = primitive.attributes.find("POSITION");
@@ -67,6 +66,8 @@ void check_size(const Document& document, const std::vector<Instance>& nodes)
             triangles += primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners / 3 : corners;
             // Flat normals give every corner its own vertex.
             vertices += primitive.attributes.contains("NORMAL") ? std::min(corners, positions) : corners;
+            deltas += primitive.targets.size() * corners;
+            if (deltas > max_morph_deltas) fail("the scene has more than 16 million vertices of morph targets");
             if (triangles > max_triangles || vertices > max_vertices) {
                 fail("the scene has more than 100 million triangles or 50 million vertices after instancing");
             }
@@ -74,18 +75,34 @@ void check_size(const Document& document, const std::vector<Instance>& nodes)
     }
 }
 
-std::vector<PlacedMesh> place_meshes(const Document& document, const std::vector<Instance>& nodes, MeshLibrary& library,
-                                     Warnings& warnings)
+// Skins whose joints the vertices of their meshes do not know are left out.
+void check_skins(Scene& scene, const std::vector<PlacedMesh>& placed, Warnings& warnings)
+{
+    for (const PlacedMesh& place : placed) {
+        Node& node = scene.nodes[place.node];
+        if (node.skin < 0) continue;
+        const std::size_t count = scene.skins[static_cast<std::size_t>(node.skin)].joints.size();
+        bool sound = !place.mesh->joints.empty();
+        for (const glm::uvec4 joints : place.mesh->joints) {
+            sound = sound && std::max({joints.x, joints.y, joints.z, joints.w}) < count;
+        }
+        if (sound) continue;
+        warn(warnings, "nodes[" + std::to_string(node.file_index) + "] '" + place.name +
+                           "' has a skin without a mesh of vertices that name its joints; it is not applied");
+        node.skin = -1;
+    }
+}
+
+std::vector<PlacedMesh> place_meshes(const Document& document, const std::vector<Node>& nodes, MeshLibrary& library)
 {
     std::vector<PlacedMesh> placed;
-    for (const Instance& instance : nodes) {
-        const auto& node = document.model.nodes[static_cast<std::size_t>(instance.node)];
-        if (node.mesh < 0) continue;
-        if (node.skin >= 0) warn(warnings, "skins are ignored: meshes are shown as modelled, at their node");
-        const auto& mesh = document.model.meshes[static_cast<std::size_t>(node.mesh)];
-        for (const LocalMesh& local : library.get(node.mesh)) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const int index = document.model.nodes[static_cast<std::size_t>(nodes[i].file_index)].mesh;
+        if (index < 0) continue;
+        const auto& mesh = document.model.meshes[static_cast<std::size_t>(index)];
+        for (const LocalMesh& local : library.get(index)) {
             if (local.indices.empty()) continue;
-            placed.push_back({&local, instance, node.name.empty() ? mesh.name : node.name});
+            placed.push_back({&local, i, nodes[i].name.empty() ? mesh.name : nodes[i].name});
         }
     }
     if (placed.empty()) fail("the scene has no triangles");
@@ -96,68 +113,139 @@ struct BoxWs {
     glm::dvec3 min{std::numeric_limits<double>::infinity()}, max{-std::numeric_limits<double>::infinity()};
 };
 
-BoxWs bounding_box_ws(const std::vector<PlacedMesh>& placed)
+// A placed mesh and what puts its vertices into the world.
+class Placing {
+public:
+    Placing(const Scene& scene, const std::vector<NodePose>& rest, const PlacedMesh& place)
+        : mesh_(*place.mesh), node_(scene.nodes[place.node]), matrices_(world_from_mesh(scene, rest, place.node))
+    {
+    }
+    glm::dmat4 matrix(std::size_t v) const
+    {
+        return node_.skin < 0 ? matrices_[0] : blended(matrices_, mesh_.joints[v], mesh_.joint_weights[v]);
+    }
+    // As modelled, with the morph targets that the rest pose has.
+    Vertex vertex(std::size_t v) const
+    {
+        Vertex vertex = mesh_.vertices[v];
+        for (std::size_t t = 0; t < node_.weights.size(); ++t) {
+            const auto weight = static_cast<float>(node_.weights[t]);
+            const MorphDelta& delta = mesh_.targets[t][v];
+            vertex.position += weight * delta.position;
+            vertex.normal += weight * delta.normal;
+            vertex.tangent += glm::vec4(weight * delta.tangent, 0.0f);
+        }
+        return vertex;
+    }
+
+private:
+    const LocalMesh& mesh_;
+    const Node& node_;
+    std::vector<glm::dmat4> matrices_;
+};
+
+BoxWs bounding_box_ws(const Scene& scene, const std::vector<NodePose>& rest, const std::vector<PlacedMesh>& placed)
 {
     BoxWs box;
     for (const PlacedMesh& place : placed) {
-        for (const Vertex& vertex : place.mesh->vertices) {
-            const glm::dvec3 position(place.instance.world_from_node * glm::dvec4(vertex.position, 1.0));
+        const Placing placing(scene, rest, place);
+        for (std::size_t v = 0; v < place.mesh->vertices.size(); ++v) {
+            const glm::dvec3 position(placing.matrix(v) * glm::dvec4(placing.vertex(v).position, 1.0));
             if (!std::isfinite(position.x + position.y + position.z)) {
-                fail("nodes[" + std::to_string(place.instance.node) + "] moves a vertex to infinity");
+                fail("nodes[" + std::to_string(scene.nodes[place.node].file_index) + "] moves a vertex to infinity");
             }
             box.min = glm::min(box.min, position);
             box.max = glm::max(box.max, position);
         }
     }
     const glm::dvec3 extent = box.max - box.min;
-    if (!(std::max({extent.x, extent.y, extent.z}) < largest_extent)) fail("the scene is larger than 1e18 m");
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    if (!(longest <= max_extent)) fail("the scene is larger than 1e9 m");
+    // Nothing but points in one place is no small scene: it is empty, and a black picture.
+    if (longest > 0.0 && longest < min_extent) fail("the scene is smaller than 1e-6 m");
     return box;
 }
 
-// Append one placed mesh: positions by the matrix, normals by its inverse transpose, tangents by the matrix.
-void append(Scene& scene, const PlacedMesh& place)
+// Keep the vertices of a mesh as modelled, for those who pose them.
+void keep_modelled(Scene& scene, const LocalMesh& mesh)
 {
-    const glm::dmat4& world_from_node = place.instance.world_from_node;
-    const glm::dmat3 linear(world_from_node);
-    // The matrix of cofactors is det * inverse transpose, and exists for flattened nodes (scale 0) too.
-    const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                               glm::cross(linear[0], linear[1]));
-    const double determinant = glm::dot(linear[0], cofactors[0]);
-    const bool mirrored = determinant < 0.0;
-    const double sign = mirrored ? -1.0 : 1.0;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+        const Vertex& vertex = mesh.vertices[v];
+        ModelledVertex modelled{vertex.position, vertex.normal, vertex.tangent};
+        if (!mesh.joints.empty()) {
+            modelled.joints = mesh.joints[v];
+            modelled.weights = mesh.joint_weights[v];
+        }
+        scene.modelled.push_back(modelled);
+    }
+}
 
-    std::vector<Vertex> vertices = place.mesh->vertices;
+// Append one placed mesh in the rest pose.
+void append(Scene& scene, const std::vector<NodePose>& rest, const PlacedMesh& place)
+{
+    Node& node = scene.nodes[place.node];
+    const Placing placing(scene, rest, place);
+    std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices = place.mesh->indices;
-    if (mirrored) {
+    for (std::size_t v = 0; v < place.mesh->vertices.size(); ++v) {
+        vertices.push_back(placed(placing.vertex(v), placing.matrix(v), scene.origin_ws));
+    }
+    node.mirrored = is_mirroring(placing.matrix(0));
+    if (node.mirrored) {
         for (std::size_t i = 0; i < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
     }
-    const auto unit = [](glm::dvec3 v) {
-        const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-        return largest > 0.0 && std::isfinite(largest) ? glm::normalize(v / largest) : glm::dvec3(0.0);
-    };
-    for (Vertex& vertex : vertices) {
-        const glm::dvec3 position_ws(world_from_node * glm::dvec4(vertex.position, 1.0));
-        vertex.position = glm::vec3(position_ws - scene.origin_ws);
-        vertex.normal = glm::vec3(unit(cofactors * glm::dvec3(vertex.normal)) * sign);
+    if (place.mesh->flat_normals && (node.skin >= 0 || !node.weights.empty())) {
+        for (Vertex& vertex : vertices) vertex.normal = glm::vec3(0.0f);  // the faces' own, now that these have moved
     }
     repair_normals(vertices, indices);  // a node scaled to nothing leaves normals without a direction
-    for (Vertex& vertex : vertices) {
-        const glm::dvec3 normal = vertex.normal;
-        const glm::dvec3 tangent = linear * glm::dvec3(vertex.tangent);
-        const glm::dvec3 flat = unit(unit(tangent) - normal * glm::dot(normal, unit(tangent)));
-        vertex.tangent = glm::vec4(flat == glm::dvec3(0.0) ? perpendicular(vertex.normal) : glm::vec3(flat),
-                                   vertex.tangent.w * (mirrored ? -1.0f : 1.0f));
-    }
+    for (Vertex& vertex : vertices) finish_tangent(vertex);
 
     const auto first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
+    const auto first_index = static_cast<std::uint32_t>(scene.indices.size());
+    if (node.draws.count == 0) {
+        node.vertices.first = first_vertex;
+        node.indices.first = first_index;
+        node.draws.first = static_cast<std::uint32_t>(scene.draws.size());
+        node.bounds = {vertices[0].position, vertices[0].position};
+        node.modelled.first = static_cast<std::uint32_t>(scene.modelled.size());
+    }
+    if (node.dynamic || node.skin >= 0 || !node.weights.empty()) {
+        keep_modelled(scene, *place.mesh);
+        node.modelled.count += static_cast<std::uint32_t>(vertices.size());
+    }
+    ++node.draws.count;
+    node.vertices.count += static_cast<std::uint32_t>(vertices.size());
+    node.indices.count += static_cast<std::uint32_t>(indices.size());
+    for (const Vertex& vertex : vertices) {
+        node.bounds.min = glm::min(node.bounds.min, vertex.position);
+        node.bounds.max = glm::max(node.bounds.max, vertex.position);
+    }
     Draw draw;
-    draw.first_index = static_cast<std::uint32_t>(scene.indices.size());
+    draw.first_index = first_index;
     draw.index_count = static_cast<std::uint32_t>(indices.size());
     draw.material = place.mesh->material;
     draw.name = place.name;
+    draw.vertices = {first_vertex, static_cast<std::uint32_t>(vertices.size())};
+    draw.flat_normals = place.mesh->flat_normals;
     scene.vertices.insert(scene.vertices.end(), vertices.begin(), vertices.end());
     for (const std::uint32_t index : indices) scene.indices.push_back(first_vertex + index);
     scene.draws.push_back(std::move(draw));
+}
+
+// Deltas of all morph targets of a node stand target by target, and its meshes one after the other within each.
+void keep_deltas(Scene& scene, const std::vector<PlacedMesh>& placed)
+{
+    for (std::size_t first = 0, end = 0; first < placed.size(); first = end) {
+        Node& node = scene.nodes[placed[first].node];
+        for (end = first; end < placed.size() && placed[end].node == placed[first].node;) ++end;
+        node.first_delta = static_cast<std::uint32_t>(scene.deltas.size());
+        for (std::size_t t = 0; t < node.weights.size(); ++t) {
+            for (std::size_t p = first; p < end; ++p) {
+                const auto& deltas = placed[p].mesh->targets[t];
+                scene.deltas.insert(scene.deltas.end(), deltas.begin(), deltas.end());
+            }
+        }
+    }
 }
 
 // alphaMode BLEND: see Material::alpha_mode. Only where something is indeed translucent.
@@ -185,28 +273,41 @@ void settle_blending(Scene& scene, const Materials& materials)
     }
 }
 
-bool emits(const Material& material, const std::vector<Image>& images)
+// The largest texel of an emission texture, linear: some exporters write a factor of 1 with a black texture.
+glm::vec3 largest_texel(const Image& image)
 {
-    if (material.emission == glm::vec3(0.0f)) return false;
-    if (!material.emission_texture.present()) return true;
-    // Some exporters write a factor of 1 with a black texture.
-    const auto& rgba = images[static_cast<std::size_t>(material.emission_texture.image)].rgba;
-    for (std::size_t i = 0; i < rgba.size(); i += 4) {
-        for (int c = 0; c < 3; ++c) {
-            if (rgba[i + static_cast<std::size_t>(c)] > 0 && material.emission[c] > 0.0f) return true;
-        }
+    std::array<std::uint8_t, 3> largest{};
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        for (std::size_t c = 0; c < 3; ++c) largest[c] = std::max(largest[c], image.rgba[i + c]);
     }
-    return false;
+    return {linear_from_srgb(largest[0] / 255.0), linear_from_srgb(largest[1] / 255.0),
+            linear_from_srgb(largest[2] / 255.0)};
 }
 
-bool has_emitter(const Scene& scene)
+// Whether a drawn surface shines. Notes those whose radiance the chapters cannot keep.
+bool find_emitters(Scene& scene)
 {
+    constexpr float largest_half = 65504.0f;
     std::vector<std::uint8_t> used(scene.materials.size(), 0);
     for (const Draw& draw : scene.draws) used[static_cast<std::size_t>(draw.material)] = 1;
+    bool found = false;
     for (std::size_t m = 0; m < used.size(); ++m) {
-        if (used[m] && emits(scene.materials[m], scene.images)) return true;
+        const Material& material = scene.materials[m];
+        glm::vec3 radiance = material.emission;
+        if (!used[m] || radiance == glm::vec3(0.0f)) continue;
+        if (material.emission_texture.present()) {
+            radiance *= largest_texel(scene.images[static_cast<std::size_t>(material.emission_texture.image)]);
+        }
+        const float largest = std::max({radiance.r, radiance.g, radiance.b});
+        found = found || largest > 0.0f;
+        if (largest <= largest_half) continue;
+        std::array<char, 32> number;
+        std::snprintf(number.data(), number.size(), "%.3g", static_cast<double>(largest));
+        warn(scene.warnings, "materials[" + std::to_string(m) + "] '" + material.name + "' emits a radiance of " +
+                                 number.data() +
+                                 " W/(sr m^2); the chapters keep light in half floats, which end at 65504");
     }
-    return false;
+    return found;
 }
 
 Scene read_scene(const std::filesystem::path& file)
@@ -214,13 +315,20 @@ Scene read_scene(const std::filesystem::path& file)
     Scene scene;
     scene.name = file.stem().string();
     const Document document = read_document(file, scene.warnings);
-    const std::vector<Instance> nodes = walk_nodes(document);
+    scene.nodes = read_nodes(document);
+    scene.animations = read_animations(document, scene.nodes, scene.warnings);
+    scene.skins = read_skins(document, scene.nodes, scene.warnings);
+    if (!document.model.scenes.empty()) scene.extras = document.model.scenes[shown_scene(document)].extras_json_string;
     const Materials materials = read_materials(document, scene.warnings);
-    check_size(document, nodes);
+    check_size(document, scene.nodes);
     MeshLibrary library(document, materials, scene.warnings);
-    const std::vector<PlacedMesh> placed = place_meshes(document, nodes, library, scene.warnings);
+    const std::vector<PlacedMesh> placed = place_meshes(document, scene.nodes, library);
 
-    const BoxWs box = bounding_box_ws(placed);
+    check_skins(scene, placed, scene.warnings);
+    mark_dynamic(scene);
+
+    const std::vector<NodePose> rest = rest_pose(scene);
+    const BoxWs box = bounding_box_ws(scene, rest, placed);
     scene.origin_ws = 0.5 * (box.min + box.max);
     scene.bounds = {glm::vec3(box.min - scene.origin_ws), glm::vec3(box.max - scene.origin_ws)};
     std::size_t vertices = 0, indices = 0;
@@ -230,14 +338,16 @@ Scene read_scene(const std::filesystem::path& file)
     }
     scene.vertices.reserve(vertices);
     scene.indices.reserve(indices);
-    for (const PlacedMesh& place : placed) append(scene, place);
+    for (const PlacedMesh& place : placed) append(scene, rest, place);
+    keep_deltas(scene, placed);
 
     scene.materials = materials.materials;
     scene.images = read_images(document, materials.images, scene.warnings);
     settle_blending(scene, materials);
-    scene.cameras = read_cameras(document, nodes, scene.origin_ws, scene.warnings);
-    scene.lights = read_lights(document, nodes, scene.origin_ws, scene.warnings);
-    if (scene.lights.empty() && !has_emitter(scene)) {
+    scene.cameras = read_cameras(document, scene.nodes, scene.origin_ws, scene.warnings);
+    scene.lights = read_lights(document, scene.nodes, scene.origin_ws, scene.warnings);
+    const bool has_emitter = find_emitters(scene);
+    if (scene.lights.empty() && !has_emitter) {
         scene.has_default_light = true;
         scene.lights.push_back(default_light(scene));
     }

@@ -186,6 +186,7 @@ void MaterialReader::read(std::size_t index)
     Material material;
     MaterialReading reading;
     material.name = source.name;
+    material.extras = source.extras_json_string;
     for (int c = 0; c < 4; ++c) {
         material.base_color[c] = limited(pbr.baseColorFactor.at(static_cast<std::size_t>(c)), "baseColorFactor");
     }

@@ -10,7 +10,7 @@
 
 #include "image/resample.hpp"
 #include "scene/document.hpp"
-#include "scene/scene.hpp"
+#include "scene/pose.hpp"
 
 namespace conebook::gltf {
 
@@ -21,11 +21,13 @@ public:
     AccessorReader(const Document& document, int accessor, const std::string& what);
 
     std::size_t count() const { return count_; }
-    int components() const { return components_; }  // 1..4 (matrices are refused)
+    int components() const { return components_; }  // 1..4, or 16: of matrices, only MAT4 is read
     bool is_float() const { return component_type_ == TINYGLTF_COMPONENT_TYPE_FLOAT; }
     bool is_unsigned_integer() const;
-    // Element i with its integers normalised where the accessor says so; missing components are 0.
+    // Element i, of 4 components at most, with its integers normalised where the accessor says so; missing ones are 0.
     glm::dvec4 element(std::size_t i) const;
+    // All components of element i, so normalised.
+    void element(std::size_t i, float* out) const;
     // Element i of an accessor of unsigned integer scalars.
     std::uint32_t unsigned_element(std::size_t i) const;
     // The value with which a strip would be restarted; glTF 2.0 forbids it as an index.
@@ -55,8 +57,8 @@ struct MaterialReading {
     bool blend = false;                // alphaMode BLEND: settled when textures and vertices are known
 };
 struct ImageSource {
-    int image = 0;                          // of the file
-    Encoding encoding = Encoding::linear;   // sRGB where any material takes colour from it
+    int image = 0;                         // of the file
+    Encoding encoding = Encoding::linear;  // sRGB where any material takes colour from it
 };
 struct Materials {
     std::vector<Material> materials;
@@ -73,6 +75,11 @@ struct LocalMesh {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     int material = 0;
+    bool flat_normals = false;             // see Draw
+    std::vector<std::uint32_t> source;     // of each vertex: its index in the file
+    std::vector<glm::uvec4> joints;        // of each vertex; empty without JOINTS_0 and WEIGHTS_0
+    std::vector<glm::vec4> joint_weights;  // sum 1
+    std::vector<std::vector<MorphDelta>> targets;  // of each morph target, each vertex
 };
 // Empty when the primitive has no triangle (points, lines). `material` indexes `materials`.
 LocalMesh read_primitive(const Document& document, int mesh, std::size_t primitive, int material,
@@ -93,18 +100,41 @@ void make_tangents(LocalMesh& mesh, const TextureSlot& texture);
 glm::vec3 perpendicular(glm::vec3 normal);
 
 // ---- nodes.cpp ----
-struct Instance {
-    int node = 0;
-    glm::dmat4 world_from_node{1.0};
-};
-// The nodes of the default scene in depth-first order (of scene 0, or of all root nodes, when the file names none).
-std::vector<Instance> walk_nodes(const Document& document);
+// Index into the file's scenes, which may be empty: the default one, or the first.
+std::size_t shown_scene(const Document& document);
+// The nodes of that scene in depth-first order (all root nodes and what is below them when the file has no scene). What
+// they place, their skins, cameras and lights are not known yet.
+std::vector<Node> read_nodes(const Document& document);
+
+// ---- animations.cpp ----
+// Both leave out, with a warning, what is not sound or refers to nodes outside the scene.
+std::vector<Animation> read_animations(const Document& document, const std::vector<Node>& nodes, Warnings& warnings);
+// Sets Node::skin.
+std::vector<Skin> read_skins(const Document& document, std::vector<Node>& nodes, Warnings& warnings);
+// Sets Node::dynamic.
+void mark_dynamic(Scene& scene);
+
+// ---- place.cpp ----
+// A vertex as the mesh has it, with its morph targets applied, by a matrix (world from mesh): positions by the matrix,
+// normals by its inverse transpose, tangents by the matrix. Position relative to `origin_ws`. A vertex that is flattened
+// to nothing keeps a normal of length 0.
+Vertex placed(Vertex vertex, const glm::dmat4& world_from_mesh, glm::dvec3 origin_ws);
+// A unit tangent perpendicular to the vertex's normal, now that this is known.
+void finish_tangent(Vertex& vertex);
+glm::dmat4 blended(const std::vector<glm::dmat4>& joint_matrices, glm::uvec4 joints, glm::vec4 weights);
+bool is_mirroring(const glm::dmat4& matrix);
+// The matrices of a node's vertices, world from mesh: one a joint where it has a skin, else one.
+std::vector<glm::dmat4> world_from_mesh(const Scene& scene, const std::vector<NodePose>& poses, std::size_t node);
 
 // ---- camera.cpp ----
-std::vector<Camera> read_cameras(const Document& document, const std::vector<Instance>& nodes, glm::dvec3 origin_ws,
+// Set Node::camera and Node::light.
+std::vector<Camera> read_cameras(const Document& document, std::vector<Node>& nodes, glm::dvec3 origin_ws,
                                  Warnings& warnings);
-std::vector<Light> read_lights(const Document& document, const std::vector<Instance>& nodes, glm::dvec3 origin_ws,
+std::vector<Light> read_lights(const Document& document, std::vector<Node>& nodes, glm::dvec3 origin_ws,
                                Warnings& warnings);
+// Position and direction of a node that carries them; false, and nothing changed, on a node without extent.
+bool place(Camera& camera, const glm::dmat4& world_from_node, glm::dvec3 origin_ws);
+bool place(Light& light, const glm::dmat4& world_from_node, glm::dvec3 origin_ws);
 // See scene.hpp, Scene::has_default_light.
 Light default_light(const Scene& scene);
 

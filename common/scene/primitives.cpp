@@ -79,6 +79,8 @@ private:
     void read_uv(glm::vec2 Vertex::*member, int set, bool is_used, const std::vector<std::uint32_t>& used,
                  std::vector<Vertex>& vertices) const;
     void read_tangents(const AccessorReader& reader, const std::vector<std::uint32_t>& used, LocalMesh& mesh) const;
+    void read_joints(LocalMesh& mesh) const;
+    void read_targets(LocalMesh& mesh) const;
 
     const Document& document_;
     const tinygltf::Primitive& primitive_;
@@ -138,6 +140,53 @@ void PrimitiveReader::read_tangents(const AccessorReader& reader, const std::vec
     }
 }
 
+void PrimitiveReader::read_joints(LocalMesh& mesh) const
+{
+    const auto joints = attribute("JOINTS_0", 4, 4), weights = attribute("WEIGHTS_0", 4, 4);
+    if (!joints || !weights) return;
+    if (!joints->is_unsigned_integer()) fail(where_ + ".JOINTS_0 is not of unsigned integers");
+    if (primitive_.attributes.contains("JOINTS_1")) {
+        warn(warnings_, where_ + " has more than four joints a vertex; the first four are used");
+    }
+    for (const std::uint32_t source : mesh.source) {
+        const glm::dvec4 joint = joints->element(source);
+        glm::dvec4 weight = weights->element(source);
+        const double sum = weight.x + weight.y + weight.z + weight.w;
+        if (!is_finite(weight) || !(sum > 0.0)) {
+            warn(warnings_, where_ + " has vertices without weights of joints; they follow the first joint");
+            weight = {1.0, 0.0, 0.0, 0.0};
+        } else {
+            weight /= sum;
+        }
+        mesh.joints.emplace_back(joint);
+        mesh.joint_weights.emplace_back(weight);
+    }
+}
+
+void PrimitiveReader::read_targets(LocalMesh& mesh) const
+{
+    for (std::size_t t = 0; t < primitive_.targets.size(); ++t) {
+        auto& deltas = mesh.targets.emplace_back(mesh.source.size());
+        for (const auto& [name, accessor] : primitive_.targets[t]) {
+            glm::vec3 MorphDelta::*member = name == "POSITION"  ? &MorphDelta::position
+                                            : name == "NORMAL"  ? &MorphDelta::normal
+                                            : name == "TANGENT" ? &MorphDelta::tangent
+                                                                : nullptr;
+            if (member == nullptr) continue;
+            const std::string what = where_ + ".targets[" + std::to_string(t) + "]." + name;
+            const AccessorReader reader(document_, accessor, what);
+            if (reader.components() != 3 || reader.count() != vertex_count_) {
+                fail(what + " does not have a vector for each of " + std::to_string(vertex_count_) + " vertices");
+            }
+            for (std::size_t i = 0; i < deltas.size(); ++i) {
+                const glm::dvec4 delta = reader.element(mesh.source[i]);
+                if (!is_finite(delta)) fail(what + " is not finite");
+                deltas[i].*member = glm::vec3(delta);
+            }
+        }
+    }
+}
+
 LocalMesh PrimitiveReader::read(int material_index, const Materials& materials)
 {
     LocalMesh mesh;
@@ -149,8 +198,6 @@ LocalMesh PrimitiveReader::read(int material_index, const Materials& materials)
     const auto positions = attribute("POSITION", 3, 3);
     if (!positions) fail(where_ + " has no POSITION");
     vertex_count_ = positions->count();
-    if (!primitive_.targets.empty()) warn(warnings_, where_ + ": its morph targets are ignored (weight 0)");
-
     mesh.indices =
         to_triangle_list(read_indices(document_, primitive_, vertex_count_, where_), primitive_.mode, where_);
     if (mesh.indices.empty()) return mesh;
@@ -162,6 +209,7 @@ LocalMesh PrimitiveReader::read(int material_index, const Materials& materials)
     for (std::uint32_t& index : mesh.indices) {
         index = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), index) - used.begin());
     }
+    mesh.source = used;
     mesh.vertices.resize(used.size(), Vertex{{}, {}, {1, 0, 0, 1}, {}, {}, glm::vec4(1.0f)});
     for (std::size_t i = 0; i < used.size(); ++i) {
         const glm::dvec4 position = positions->element(used[i]);
@@ -218,6 +266,8 @@ LocalMesh PrimitiveReader::read(int material_index, const Materials& materials)
     } else {
         for (Vertex& vertex : mesh.vertices) vertex.tangent = glm::vec4(perpendicular(vertex.normal), 1.0f);
     }
+    read_joints(mesh);
+    read_targets(mesh);
     return mesh;
 }
 

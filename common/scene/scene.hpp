@@ -1,5 +1,6 @@
 // The scene as every part of the book sees it: flat arrays of triangles, materials, lights and cameras.
-// The loader has already walked the node hierarchy, so positions are final and nothing refers to a node any more.
+// The loader has already walked the node hierarchy, so positions are final. The nodes are kept beside them (motion.hpp),
+// for those who move them.
 #pragma once
 
 #include <array>
@@ -10,6 +11,8 @@
 #include <vector>
 
 #include <glm/glm.hpp>
+
+#include "scene/motion.hpp"
 
 namespace conebook {
 
@@ -68,6 +71,7 @@ struct Material {
     TextureSlot emission_texture;            // sRGB
     TextureSlot specular_texture;            // A scales `specular`
     TextureSlot specular_color_texture;      // sRGB
+    std::string extras;                      // JSON, "" where the file has none
 };
 
 // A run of triangles with one material: indices [first_index, first_index + index_count) of Scene::indices.
@@ -75,6 +79,8 @@ struct Draw {
     std::uint32_t first_index = 0, index_count = 0;
     int material = 0;
     std::string name;
+    Range vertices{};           // of Scene::vertices, those of the triangles
+    bool flat_normals = false;  // the file has no normals: three vertices of its own for each triangle, with its face normal
 };
 
 enum class LightType : int { directional = 0, point = 1, spot = 2 };
@@ -101,15 +107,6 @@ struct Camera {
     float z_far = 0.0f;                    // 0: infinite
 };
 
-struct Bounds {
-    glm::vec3 min{0.0f}, max{0.0f};
-    glm::vec3 extent() const { return max - min; }
-    glm::vec3 center() const { return 0.5f * (min + max); }
-    float longest_side() const { auto e = extent(); return glm::max(e.x, glm::max(e.y, e.z)); }
-    // 0 .. 7: bit 0, 1, 2 choose max over min in x, y, z.
-    glm::vec3 corner(int i) const { return {i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z}; }
-};
-
 struct Scene {
     std::string name;
     // World space position of scene space (0,0,0): the middle of the bounding box. Positions are transformed in
@@ -123,6 +120,12 @@ struct Scene {
     std::vector<Image> images;
     std::vector<Light> lights;
     std::vector<Camera> cameras;           // only those in the file, in the order of their nodes' indices
+    std::vector<Node> nodes;               // of the file's scene, depth first; what each of them placed
+    std::vector<Animation> animations;     // pose.hpp plays them
+    std::vector<Skin> skins;
+    std::vector<ModelledVertex> modelled;  // of what moves, see Node::modelled
+    std::vector<MorphDelta> deltas;        // see Node::first_delta
+    std::string extras;                    // of the file's scene: JSON, "" where it has none
     // The file had neither a light nor an emissive surface, and `lights` holds one that the loader added: directional,
     // white, irradiance pi W/m^2 (a white diffuse surface facing it has radiance 1), from over the left shoulder of
     // the camera that choose_camera gives.
@@ -135,9 +138,10 @@ struct Scene {
 // none). Textures are PNG or JPEG. Supported extensions: KHR_lights_punctual, KHR_materials_emissive_strength,
 // KHR_materials_specular, KHR_materials_unlit, KHR_texture_transform; any other is refused by name when the file
 // requires it and ignored with a warning when it does not. Flat normals where the file has none; tangents where it has
-// none. Mirrored nodes keep their front faces. Not read, with a warning: points and lines, skins, morph targets, a
-// material's third UV set. Throws std::runtime_error with one line, "<file>: <fault>", for anything damaged,
-// for a scene without triangles, and for sizes beyond the limits in document.hpp.
+// none. Mirrored nodes keep their front faces. Images wider or higher than 16384 are shrunk, with a warning. Not read, with
+// a warning: points and lines, a material's third UV set, a vertex's fifth joint. Animations and skins that are not sound
+// are left out, with a warning. Throws std::runtime_error with one line, "<file>: <fault>",
+// for anything damaged, for a scene without triangles, and for sizes beyond the limits in document.hpp.
 Scene load_scene(const std::filesystem::path& file);
 
 // The camera to render with: the Nth of the file, or (index empty) the first of the file, or, when the file has

@@ -22,7 +22,8 @@ void main()
         LightSample light = sample_light(lights[i], s.position);
         vec3 irradiance = light.irradiance;
 #if SHADOWS
-        irradiance *= shadow_map_visibility(i, lights[i], s.position, s.geometric_normal);
+        bool faces_light = dot(s.geometric_normal, light.direction) > 0.0;  // else it lies in its own shadow
+        irradiance *= faces_light ? shadow_map_visibility(i, lights[i], s.position, s.geometric_normal) : 0.0;
 #endif
         sum += reflected_radiance(s.normal, view, light.direction, irradiance, s.albedo, s.roughness, s.f0, s.f90);
     }

@@ -8,9 +8,7 @@ layout(location = 0) out vec2 out_normal;               // RG16_SNORM, octahedra
 layout(location = 1) out vec2 out_geometric_normal;     // RG16_SNORM, octahedral
 layout(location = 2) out vec4 out_base_color_metallic;  // RGBA16, linear
 layout(location = 3) out vec4 out_f0_f90;               // RGBA16
-layout(location = 4) out vec4 out_emission_roughness;   // RGBA16F
-
-const float kLargestHalf = 65504.0;  // beyond it a 16 bit float is infinite
+layout(location = 4) out vec4 out_emission_roughness;   // RGBA32F
 
 void main()
 {
@@ -19,6 +17,6 @@ void main()
     out_geometric_normal = octahedral_encode(s.geometric_normal);
     out_base_color_metallic = vec4(s.material.base_color, s.material.metallic);
     out_f0_f90 = vec4(s.material.f0, s.material.f90);
-    out_emission_roughness = vec4(min(s.material.emission, vec3(kLargestHalf)), s.material.roughness);
+    out_emission_roughness = vec4(s.material.emission, s.material.roughness);
 }
 // end snippet

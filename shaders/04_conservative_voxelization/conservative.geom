@@ -1,28 +1,20 @@
 #version 450 core
 // Draw, for each triangle, every pixel of its column plane that the triangle touches, however little.
 // Moving the edges out by the reach of half a pixel: Hasselgren et al. 2005, GPU Gems 2, chapter 42, second algorithm.
-// ATTRIBUTES: 1 to hand on what the vertices have besides their positions (chapter 05).
 #include "04_conservative_voxelization/triangle_voxels.glsl"
-#if !ATTRIBUTES
-#include "common/voxel_counters.glsl"
-#endif
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
+in vec3 vertex_position[];  // scene space, m
 flat out GridTriangle triangle;
-#if ATTRIBUTES
-#include "05_atomic_averaging/triangle_attributes.glsl"
-flat out TriangleAttributes attributes;
-#endif
+flat out uint triangle_index;
 
 const float kReach = 0.5 + 0.01;  // half a pixel, and a little for the rasterizer's rounding of coordinates
 
 void emit_at(vec2 p, GridTriangle t)
 {
     triangle = t;
-#if ATTRIBUTES
-    attributes = triangle_attributes(uint(gl_PrimitiveIDIn));
-#endif
+    triangle_index = uint(gl_PrimitiveIDIn);
     gl_Position = vec4(2.0 * p / largest(vec3(grid.size.xyz)) - 1.0, 0.0, 1.0);
     EmitVertex();
 }
@@ -44,11 +36,12 @@ float area_of(vec2 a, vec2 b, vec2 c) { return 0.5 * ((b.x - a.x) * (c.y - a.y) 
 
 void main()
 {
-    GridTriangle t = grid_triangle(uint(gl_PrimitiveIDIn));
-    if (has_no_area(t)) {
-#if !ATTRIBUTES  // else an earlier pass has counted them
-        count_degenerate();
-#endif
+    GridTriangle t = grid_triangle(vertex_position[0], vertex_position[1], vertex_position[2]);
+    if (has_no_area(t)) {  // one pixel's centre, whose fragment counts it
+        emit_at(vec2(0.0, 0.0), t);
+        emit_at(vec2(1.5, 0.0), t);
+        emit_at(vec2(0.0, 1.5), t);
+        EndPrimitive();
         return;
     }
     vec2 a = t.v0.xy, b = t.v1.xy, c = t.v2.xy;

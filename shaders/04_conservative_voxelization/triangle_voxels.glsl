@@ -1,11 +1,5 @@
-// Which voxels of one grid column a triangle overlaps: taught in chapter 04, used by every voxelization.
+// Which voxels of one grid column a triangle overlaps.
 #include "common/voxel_grid.glsl"
-
-layout(std430, binding = kVertexBinding) readonly buffer VertexBuffer { float vertex_words[]; };  // 18 floats a vertex
-layout(std430, binding = kIndexBinding) readonly buffer IndexBuffer { uint vertex_indices[]; };
-uniform uint first_index;
-
-const int kVertexWords = 18;
 
 // A triangle in grid space, its axes turned so that z is the axis along which it is projected.
 struct GridTriangle {
@@ -24,21 +18,12 @@ ivec3 axis_from_z(ivec3 p, int axis) { return axis == 0 ? p.zxy : axis == 1 ? p.
 
 float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
-uint vertex_of(uint triangle, int corner) { return vertex_indices[first_index + 3u * triangle + uint(corner)]; }
-
-vec3 vertex_vec3(uint vertex, int word)
-{
-    uint i = vertex * uint(kVertexWords) + uint(word);
-    return vec3(vertex_words[i], vertex_words[i + 1u], vertex_words[i + 2u]);
-}
-
 // Choose the axis along which the triangle looks largest. Of equal components either will do, but one that is smaller
 // than another must never win: seen edge-on the triangle has no pixels and vanishes.
 // A sliver's cross product is mostly rounding error, so there the shortest side of its box decides.
-GridTriangle grid_triangle(uint triangle)
+// p0, p1, p2: scene space, m.
+GridTriangle grid_triangle(vec3 p0, vec3 p1, vec3 p2)
 {
-    vec3 p0 = vertex_vec3(vertex_of(triangle, 0), 0), p1 = vertex_vec3(vertex_of(triangle, 1), 0),
-         p2 = vertex_vec3(vertex_of(triangle, 2), 0);
     // Edges from scene space: there the vertices are exact, in grid space they have been rounded.
     vec3 e0 = (p1 - p0) / grid.origin.w, e1 = (p2 - p1) / grid.origin.w, e2 = (p0 - p2) / grid.origin.w;
     GridTriangle t;

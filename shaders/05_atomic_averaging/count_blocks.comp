@@ -1,15 +1,15 @@
 #version 450 core
 // List of occupied voxels, step 1: which voxels each block of 4x4x4 has, and how many faces. One thread a block.
+#include "common/item_index.glsl"
 #include "common/voxel_grid.glsl"
 #include "05_atomic_averaging/blocks.glsl"
 
-layout(local_size_x = 64) in;
 layout(binding = kOccupancyUnit) uniform usampler3D occupancy;
 layout(std430, binding = kBlockBinding) writeonly buffer BlockBuffer { Block blocks[]; };
 
 void main()
 {
-    uint block = gl_GlobalInvocationID.x;
+    uint block = item_index();
     if (block >= block_count()) return;
     // The occupancy pyramid knows which blocks are empty; its level 2 has one texel a block.
     bool empty = grid.size.w > 2 && texelFetch(occupancy, block_corner(block) >> 2, 2).r == 0u;

@@ -1,9 +1,9 @@
 #version 450 core
 // Sums to means, one thread a face.
 #include "common/voxel_grid.glsl"
+#include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 
-layout(local_size_x = 64) in;
 layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
 layout(std430, binding = kSumBinding) readonly buffer SumBuffer { uint sums[]; };
 layout(std430, binding = kFaceBinding) writeonly buffer FaceBuffer { VoxelFace faces[]; };
@@ -21,7 +21,7 @@ vec3 mean_of(uint place, int sum, float area)
 
 void main()
 {
-    uint place = gl_GlobalInvocationID.x;
+    uint place = item_index();
     if (place >= voxel_statistics.faces) return;
     uint entry = face_list[place];
     vec3 corner = vec3(unpack_voxel(entry));

@@ -1,6 +1,6 @@
 // What a triangle's vertices have besides their positions.
-// Included after 04_conservative_voxelization/triangle_voxels.glsl.
-// TEXTURES: 1 when some material of the scene has textures and needs the UV sets.
+// Included after 04_conservative_voxelization/scene_triangles.glsl.
+// TEXTURES: not 0 when the material has textures.
 struct TriangleAttributes {
     vec3 normal0, normal1, normal2;
     vec4 color0, color1, color2;  // linear

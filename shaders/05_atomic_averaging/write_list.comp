@@ -1,9 +1,9 @@
 #version 450 core
 // List of occupied voxels, step 3: every block writes its part. A voxel keeps where its faces begin and which it has.
+#include "common/item_index.glsl"
 #include "common/voxel_grid.glsl"
 #include "05_atomic_averaging/blocks.glsl"
 
-layout(local_size_x = 64) in;
 layout(binding = kOccupancyUnit) uniform usampler3D occupancy;
 layout(r32ui, binding = 1) writeonly uniform uimage3D face_index;  // first face << 6 | mask of faces; 0 where empty
 layout(std430, binding = kBlockBinding) readonly buffer BlockBuffer { Block blocks[]; };
@@ -13,7 +13,7 @@ layout(std430, binding = kFaceListBinding) writeonly buffer FaceListBuffer { uin
 
 void main()
 {
-    uint block = gl_GlobalInvocationID.x;
+    uint block = item_index();
     if (block >= block_count()) return;
     Block b = blocks[block];
     // snippet: write_list

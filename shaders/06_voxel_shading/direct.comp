@@ -4,23 +4,21 @@
 #include "common/scene_structs.glsl"
 #include "common/brdf.glsl"
 #include "common/light.glsl"
+#include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 #include "04_conservative_voxelization/voxel_walk.glsl"
 #if SHADOWS == 1
 #include "common/shadow_map.glsl"
 #endif
 
-layout(local_size_x = 64) in;
-layout(std430, binding = kLightBinding) readonly buffer LightBuffer { LightData lights[]; };
 layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
 // rgb L, a visible share of all lights; 4 x 8 bit: lights 0..3.
 layout(std430, binding = kRadianceBinding) writeonly buffer RadianceBuffer { vec4 face_radiance[]; };
 layout(std430, binding = kVisibilityBinding) writeonly buffer VisibilityBuffer { uint face_visibility[]; };
-uniform int light_count;
 uniform float soft_sharpness;  // voxels
 
-// Cosine of the mean normal, or Villegas 2016, section 4.4: every axis weighs with the square of the normal's
+// Cosine of the mean normal, or Villegas 2016, section 3.4: every axis weighs with the square of the normal's
 // component and receives what light falls on its side.
 // snippet: cosine_factor
 float cosine_factor(vec3 n, vec3 l)
@@ -44,8 +42,9 @@ float ray_visibility(vec3 position_grid, vec3 normal, vec3 direction, float dist
     return hit.hit && hit.t < distance_grid - kRayStart ? 0.0 : 1.0;
 #else
     // snippet: soft_ray
-    // Villegas 2016, section 4.4: each voxel hit adds (1 - v) * hit / distance, so that what is near the receiver makes
-    // a hard shadow and what is far away a soft one. A look, not a measurable quantity: there is no light size in it.
+    // Villegas 2016, sections 2.2.1.1 and 3.4.1: each voxel hit adds (1 - v) * hit / distance, so that what is near the
+    // receiver makes a hard shadow and what is far away a soft one. His hit / distance has no upper end and can make the
+    // visibility negative; here it ends at 1. A look, not a measurable quantity: there is no light size in it.
     float shadow = 0.0, travelled = 0.0;
     vec3 from = start;
     for (int hits = 0; hits < 8 && shadow < 1.0; ++hits) {
@@ -62,7 +61,7 @@ float ray_visibility(vec3 position_grid, vec3 normal, vec3 direction, float dist
 
 void main()
 {
-    uint place = gl_GlobalInvocationID.x;
+    uint place = item_index();
     if (place >= voxel_statistics.faces) return;
     VoxelFace face = faces[place];
     vec3 normal = face.normal.xyz;

@@ -3,10 +3,10 @@
 #include "07_anisotropic_mips/store_light.glsl"
 #include "07_anisotropic_mips/column_weight.glsl"
 #include "07_anisotropic_mips/projected_area.glsl"
+#include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 #include "05_atomic_averaging/face_index.glsl"
 
-layout(local_size_x = 64) in;
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(std430, binding = kVoxelListBinding) readonly buffer VoxelListBuffer { uint voxel_list[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
@@ -16,8 +16,8 @@ uniform vec2 part;  // of radiance and emission: (1, 1) all, (1, 0) what is refl
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= voxel_statistics.voxels) return;
-    ivec3 voxel = unpack_voxel(voxel_list[gl_GlobalInvocationID.x]);
+    if (item_index() >= voxel_statistics.voxels) return;
+    ivec3 voxel = unpack_voxel(voxel_list[item_index()]);
     uint entry = texelFetch(face_index, voxel, 0).r;
     vec4 sums[kFaceCount] = vec4[](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     for (uint i = entry >> 6; i < (entry >> 6) + uint(bitCount(face_mask(entry))); ++i) {

@@ -3,9 +3,9 @@
 // beside each other are averaged (after Crassin 2011, section 5; Villegas 2016, section 3.5.1).
 #include "07_anisotropic_mips/store_light.glsl"
 #include "07_anisotropic_mips/column_weight.glsl"
+#include "common/item_index.glsl"
 #include "07_anisotropic_mips/occupied_levels.glsl"
 
-layout(local_size_x = 64) in;
 uniform int level;
 uniform uint begin;  // of the level's part of the list
 
@@ -47,7 +47,8 @@ vec4 filtered(int face, ivec3 voxel)
 
 void main()
 {
-    if (gl_GlobalInvocationID.x >= levels[level].count) return;
-    ivec3 voxel = unpack_voxel(occupied[begin + gl_GlobalInvocationID.x]);
+    uint place = item_index();
+    if (place >= levels[level].count) return;
+    ivec3 voxel = unpack_voxel(occupied[begin + place]);
     for (int face = 0; face < kFaceCount; ++face) store_texel(atlas_texel(face, voxel, level), filtered(face, voxel));
 }

@@ -3,13 +3,15 @@
 // One atlas, rgba16f, holds the six side by side along x, for every level: texel (face * size.x + x, y, z).
 //   a    A: share of the voxel's cross-section that surfaces facing `face` cover, 0..1
 //   rgb  A L: their mean radiance L, W/(sr m^2), premultiplied with the coverage
-// In eight bits rgb is a share of light_scale; with SPLIT_COVERAGE, where the format has no room for A, an atlas of its
-// own holds it. What surfaces emit may have an atlas of its own too (chapter 11): A Le in rgb.
+// rgb is kept in units of light_scale: in eight bits the largest radiance, in floats a power of two that brings it below
+// the largest half float, 1 where it is there already. With SPLIT_COVERAGE, where the format has no room for A, an atlas
+// of its own holds it. What surfaces emit may have an atlas of its own too (chapter 11): A Le in rgb, in units of emission_scale.
 #include "common/voxel_grid.glsl"
 
 layout(binding = kLightAtlasUnit) uniform sampler3D light_atlas;
 layout(binding = kEmissionAtlasUnit) uniform sampler3D emission_atlas;
-layout(std140, binding = kPyramidBlock) uniform PyramidBlock { float light_scale; };  // W/(sr m^2), 1 for formats that need none
+layout(std140, binding = kPyramidBlock) uniform PyramidBlock { float light_scale; };  // W/(sr m^2)
+layout(std140, binding = kEmissionPyramidBlock) uniform EmissionPyramidBlock { float emission_scale; };  // W/(sr m^2)
 #ifdef SPLIT_COVERAGE
 const int kTexelsPerFetch = 2;  // for those who count
 layout(binding = kCoverageAtlasUnit) uniform sampler3D coverage_atlas;
@@ -33,8 +35,14 @@ vec3 atlas_place(int face, vec3 p, int level)
 vec4 light_of(int face, ivec3 voxel, int level) { return WITH_COVERAGE(texelFetch, atlas_texel(face, voxel, level), level); }
 vec4 light_at(int face, vec3 p, int level) { return WITH_COVERAGE(textureLod, atlas_place(face, p, level), float(level)); }
 float coverage_at(int face, vec3 p, int level) { return COVERAGE(textureLod, atlas_place(face, p, level), float(level)); }
-vec3 emission_of(int face, ivec3 voxel, int level) { return texelFetch(emission_atlas, atlas_texel(face, voxel, level), level).rgb; }
-vec3 emission_at(int face, vec3 p, int level) { return textureLod(emission_atlas, atlas_place(face, p, level), float(level)).rgb; }
+vec3 emission_of(int face, ivec3 voxel, int level) 
+{
+    return emission_scale * texelFetch(emission_atlas, atlas_texel(face, voxel, level), level).rgb;
+}
+vec3 emission_at(int face, vec3 p, int level) 
+{
+    return emission_scale * textureLod(emission_atlas, atlas_place(face, p, level), float(level)).rgb;
+}
 
 // The nearest half-float values. What imageStore does is left to the driver (OpenGL 4.6, 2.3.4.2); some cut off, and
 // a bias of half a unit a level would add up.

@@ -95,17 +95,22 @@ float coverage_met_above(WalkRay ray, uint word, RayStart start, float t)
     vec3 met = coverage_bits(word, ray.face_shifts);
     vec3 leaving = coverage_bits(word, leaving_shifts(ray));
     vec3 n = abs(start.normal), forward = n * step(0.0, start.normal * ray.direction);
-    float area = forward.x >= forward.y && forward.x >= forward.z ? leaving.x / max(forward.x, 0.1)
-                 : forward.y >= forward.z                         ? leaving.y / max(forward.y, 0.1)
-                                                                  : leaving.z / max(forward.z, 0.1);
-    vec3 others = max(met - area * (n - forward), vec3(0.0));
+    vec2 nearest = forward.x >= forward.y && forward.x >= forward.z ? vec2(leaving.x, forward.x)
+                   : forward.y >= forward.z                         ? vec2(leaving.y, forward.y)
+                                                                    : vec2(leaving.z, forward.z);
+    vec3 shown = (n - forward) / max(nearest.y, 0.1);  // of its own surface, per coverage A_b
+    vec3 rounding = 0.5 / kWalkUnits * (1.0 + shown);  // both coverages are rounded to units
+    vec3 others = max(met - shown * nearest.x - rounding, vec3(0.0));
     vec3 not_sheet = 1.0 - start.sheet * step(t * dot(start.sheet, abs(ray.direction)), kSheetBlur);
     return dot(abs(ray.direction), others * not_sheet);
 }
 // end snippet
 
-// Until where a ray is in the blur of the surface that it starts from.
-float own_blur_end(RayStart start, vec3 direction) { return kBlur / max(dot(start.normal, direction), 1e-3); }
+// Until where a ray is in the blur of the surface that it starts from; 0 where there is none.
+float own_blur_end(RayStart start, vec3 direction)
+{
+    return kBlur * dot(start.normal, start.normal) / max(dot(start.normal, direction), 1e-3);
+}
 
 // Distance along the ray to where it leaves the scene's bounds, moved out by `margin`; all in voxels.
 float exit_distance(vec3 origin, vec3 direction, float margin)

@@ -2,11 +2,11 @@
 // Walk volume, step 4: what surfaces cover in a cell that is not empty, of its six sides: the mean of the eight voxels round
 // its centre, as a linear filter would have it. One thread a cell.
 #include "common/voxel_grid.glsl"
+#include "common/item_index.glsl"
 #include "05_atomic_averaging/face_index.glsl"
 #include "07_anisotropic_mips/projected_area.glsl"
 #include "07_anisotropic_mips/column_weight.glsl"
 
-layout(local_size_x = 64) in;
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(r32ui, binding = 0) writeonly uniform uimage3D walk_volume;
 layout(std430, binding = kWalkCellBinding) readonly buffer WalkCells { uint cell_count; uint cells[]; };
@@ -26,7 +26,7 @@ vec2 covered(ivec3 voxel, int axis)
 
 void main()
 {
-    uint place = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+    uint place = item_index();
     if (place >= cell_count) return;
     ivec3 cell = ivec3(cells[place] & 1023u, cells[place] >> 10 & 1023u, cells[place] >> 20);
     ivec3 low = ivec3(floor(grid.content_min.xyz)), high = ivec3(ceil(grid.content_max.xyz)) - 1;

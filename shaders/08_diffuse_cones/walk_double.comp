@@ -2,15 +2,15 @@
 // Walk volume, step 2: a cube of twice the side holds something if one of its eight parts does. One thread a word of 32
 // cells; run once for each level, from `level` to `level` + 1.
 #include "common/voxel_grid.glsl"
+#include "common/item_index.glsl"
 #include "08_diffuse_cones/walk_bits.glsl"
 
-layout(local_size_x = 64) in;
 uniform int level;
 
 void main()
 {
     ivec3 counts = walk_row_counts();
-    int i = int(gl_GlobalInvocationID.x), side = 1 << level;
+    int i = int(item_index()), side = 1 << level;
     if (i >= counts.x * counts.y * counts.z) return;
     ivec3 at = ivec3(i % counts.x, (i / counts.x) % counts.y, i / (counts.x * counts.y));
     // snippet: double

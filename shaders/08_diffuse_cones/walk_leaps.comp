@@ -2,9 +2,9 @@
 // Walk volume, step 3: how far an empty cell lets a ray leap, for each of the eight octants that a ray may go towards; and
 // the list of the cells that are not empty. One thread a word of 32 cells.
 #include "common/voxel_grid.glsl"
+#include "common/item_index.glsl"
 #include "08_diffuse_cones/walk_bits.glsl"
 
-layout(local_size_x = 64) in;
 layout(r32ui, binding = 0) writeonly uniform uimage3D walk_volume;
 layout(std430, binding = kWalkCellBinding) buffer WalkCells { uint cell_count; uint cells[]; };  // 10 bits an axis
 
@@ -28,7 +28,7 @@ uvec3 empty_cubes(int octant, int x, ivec2 row)
 void main()
 {
     ivec3 size = walk_size();
-    int words = (size.x + 31) / 32, i = int(gl_GlobalInvocationID.x);
+    int words = (size.x + 31) / 32, i = int(item_index());
     if (i >= words * size.y * size.z) return;
     ivec3 first = ivec3(32 * (i % words), (i / words) % size.y, i / (words * size.y));
     uint full = walk_bits_from(0, first.x + kWalkPadding, first.yz + kWalkPadding);

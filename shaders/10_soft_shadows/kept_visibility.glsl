@@ -11,9 +11,8 @@ float kept_visibility(vec3 position, vec3 normal, int light)
     vec3 p = clamp(grid_from_scene(position), vec3(0.5), vec3(grid.size.xyz) - 0.5);
     vec4 sum = vec4(0.0);
     for (int axis = 0; axis < 3; ++axis) {
-        float face = 2.0 * float(axis) + (normal[axis] > 0.0 ? 1.0 : 0.0);
-        vec3 uvw = vec3((face * float(grid.size.x) + p.x) / 6.0, p.yz) / vec3(grid.size.xyz);
-        sum += normal[axis] * normal[axis] * textureLod(visibility_volume, uvw, 0.0);
+        int face = 2 * axis + (normal[axis] > 0.0 ? 1 : 0);
+        sum += normal[axis] * normal[axis] * textureLod(visibility_volume, atlas_place(face, p, 0), 0.0);
     }
     return sum.a > 0.0 ? clamp(sum[light] / sum.a, 0.0, 1.0) : 1.0;
 }

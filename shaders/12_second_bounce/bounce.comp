@@ -2,10 +2,10 @@
 // One bounce from voxel to voxel: every face reflects the mean of what the faces at the ends of its links reflect, and what
 // emitters and the sky send. One thread a face.
 // EMITTERS 1: some surface shines. FIRST, LAST 1: the first bounce of a run, the last one.
+#include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 #include "12_second_bounce/links.glsl"
 
-layout(local_size_x = 256) in;
 layout(std430, binding = kRadianceBinding) readonly buffer DirectBuffer { vec4 direct[]; };          // reflected of direct light: R(0)
 layout(std430, binding = kLinkBinding) readonly buffer LinkBuffer { uint links[]; };
 layout(std430, binding = kFromEmittersBinding) readonly buffer EmittedBuffer { vec4 from_emitters[]; };  // E / pi
@@ -27,7 +27,7 @@ vec3 radiance_before(uint place) { return unpack_radiance(before[place]); }
 #endif
 
 #if MEASURE
-shared float group_change[256], group_radiance[256];
+shared float group_change[64], group_radiance[64];
 
 // The largest of the work group first: one atomic for all its faces. Floats that are not negative have the order of their
 // bits.
@@ -37,7 +37,7 @@ void measure(vec3 change, vec3 radiance)
     group_change[i] = max(change.r, max(change.g, change.b));
     group_radiance[i] = max(radiance.r, max(radiance.g, radiance.b));
     barrier();
-    for (uint half_count = 128u; half_count > 0u; half_count >>= 1) {
+    for (uint half_count = 32u; half_count > 0u; half_count >>= 1) {
         if (i < half_count) {
             group_change[i] = max(group_change[i], group_change[i + half_count]);
             group_radiance[i] = max(group_radiance[i], group_radiance[i + half_count]);
@@ -52,7 +52,7 @@ void measure(vec3 change, vec3 radiance)
 
 void main()
 {
-    uint place = gl_GlobalInvocationID.x;
+    uint place = item_index();
     vec3 change = vec3(0.0), radiance = vec3(0.0);
     if (place < voxel_statistics.faces) {
         // snippet: bounce

@@ -2,6 +2,7 @@
 // Where the light of every face comes from: its rays are walked once, and each keeps the face that it ends on. One thread a
 // face. What emitters send to the face does not depend on the light either, so it is gathered here too.
 // EMITTERS 0: no surface shines; 1: emission is apart; 2: rays meet it as they meet what is reflected.
+#include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 #include "05_atomic_averaging/face_index.glsl"
 #include "12_second_bounce/links.glsl"
@@ -11,7 +12,6 @@
 #include "12_second_bounce/hidden_by_emitter.glsl"
 #endif
 
-layout(local_size_x = 64) in;
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
@@ -58,7 +58,7 @@ uint face_met(vec3 position, vec3 direction, float u)
 
 void main()
 {
-    uint place = gl_GlobalInvocationID.x;
+    uint place = item_index();
     if (place >= voxel_statistics.faces) return;
     VoxelFace face = faces[place];
     vec3 normal = face.normal.xyz, position = face.position.xyz;

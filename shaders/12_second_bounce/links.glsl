@@ -15,11 +15,14 @@ uint pack_albedo(vec3 albedo)
 }
 vec3 unpack_albedo(uint bits) { return vec3(uvec3(bits) >> uvec3(0, 10, 20) & 1023u) / 1023.0; }
 
-// Radiance as half floats.
-const float kLargestHalf = 65504.0;
+// Radiance as three shares, of 16 bits, of the power of two above the largest of them: of any size, to 1/65535 of that.
 uvec2 pack_radiance(vec3 radiance)
 {
-    vec3 r = min(radiance, vec3(kLargestHalf));
-    return uvec2(packHalf2x16(r.rg), packHalf2x16(vec2(r.b, 0.0)));
+    uint exponent = (floatBitsToUint(max(radiance.r, max(radiance.g, radiance.b))) >> 23) + 1u;  // as floats have it
+    uvec3 shares = uvec3(round(radiance / uintBitsToFloat(exponent << 23) * 65535.0));
+    return uvec2(shares.r | shares.g << 16, shares.b | exponent << 16);
 }
-vec3 unpack_radiance(uvec2 bits) { return vec3(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y).x); }
+vec3 unpack_radiance(uvec2 bits)
+{
+    return vec3(uvec3(bits.x, bits.x >> 16, bits.y) & 0xffffu) * (uintBitsToFloat(bits.y >> 16 << 23) / 65535.0);
+}

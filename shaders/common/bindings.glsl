@@ -13,6 +13,7 @@ CONEBOOK_CONSTANT int kGridBlock = 1;
 CONEBOOK_CONSTANT int kConeBlock = 2;
 CONEBOOK_CONSTANT int kMaterialBlock = 3;
 CONEBOOK_CONSTANT int kPyramidBlock = 4;
+CONEBOOK_CONSTANT int kEmissionPyramidBlock = 5;
 
 // Storage buffers. OpenGL 4.5 promises a pass eight of them, numbered 0 to 7, in fragment and compute shaders, and none
 // in vertex and geometry shaders (chapter 23, MAX_SHADER_STORAGE_BUFFER_BINDINGS, MAX_*_SHADER_STORAGE_BLOCKS).
@@ -26,11 +27,20 @@ CONEBOOK_CONSTANT int kVoxelListBinding = 7;
 
 // A pass puts its own buffers at 4 and 6, and at numbers of the above that it has no use for. Each binds what it reads
 // right before it runs.
-// 04, 05: voxelization has vertices instead of faces.
+// 04, 05: voxelization has triangles instead of faces.
+CONEBOOK_CONSTANT int kTriangleMaterialBinding = 1;
 CONEBOOK_CONSTANT int kVertexBinding = 2;
 CONEBOOK_CONSTANT int kIndexBinding = 3;
+CONEBOOK_CONSTANT int kFragmentRangeBinding = 4;
+CONEBOOK_CONSTANT int kFragmentBinding = 6;
+CONEBOOK_CONSTANT int kLargeTriangleBinding = 7;
 CONEBOOK_CONSTANT int kSumBinding = 4;
 CONEBOOK_CONSTANT int kBlockBinding = 6;
+// Poses write the vertices.
+CONEBOOK_CONSTANT int kModelledBinding = 0;
+CONEBOOK_CONSTANT int kMorphDeltaBinding = 1;
+CONEBOOK_CONSTANT int kPoseMatrixBinding = 3;
+CONEBOOK_CONSTANT int kMorphWeightBinding = 4;
 // 03
 CONEBOOK_CONSTANT int kShadowLayerBinding = 4;
 CONEBOOK_CONSTANT int kShadowLightBinding = 6;

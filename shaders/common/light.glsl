@@ -1,6 +1,10 @@
-// Punctual lights (KHR_lights_punctual): what one of them sends to a point.
+// Punctual lights (KHR_lights_punctual): the scene's list of them, and what one of them sends to a point.
+#include "common/bindings.glsl"
 #include "common/scene_structs.glsl"
 #include "common/material_constants.glsl"
+
+layout(std430, binding = kLightBinding) readonly buffer LightBuffer { LightData lights[]; };
+uniform int light_count;
 
 struct LightSample {
     vec3 direction;   // unit, from the point to the light; zero at the very place of the light
@@ -8,7 +12,7 @@ struct LightSample {
     float distance;   // m to the light; kInfiniteDistance for directional lights
 };
 
-const float kInfiniteDistance = 1.0e9;  // m; its square is still a float
+const float kInfiniteDistance = 1.0e18;  // m, beyond every scene that is read; its square is still a float
 
 // snippet: sample_light
 LightSample sample_light(LightData light, vec3 position)

@@ -28,22 +28,35 @@ vec2 texture_uv(MaterialData m, int slot, vec2 uv0, vec2 uv1)
     return vec2(dot(m.uv_row[2 * slot].xyz, uv), dot(m.uv_row[2 * slot + 1].xyz, uv));
 }
 
-// F0 and F90 of the mix of dielectric and metal (KHR_materials_specular; ior 1.5: 0.04).
-void set_fresnel(inout SurfaceMaterial s, vec3 specular_color)
-{
-    s.f0 = mix(min(0.04 * specular_color, vec3(1.0)) * s.specular, s.base_color, s.metallic);
-    s.f90 = mix(s.specular, 1.0, s.metallic);
-    s.albedo = s.base_color * (1.0 - s.metallic);
-}
+// What a material's textures hold at a point; 1 where it has none.
+struct TextureSamples {
+    vec4 base_color;          // linear
+    vec4 metallic_roughness;  // g: roughness, b: metallic
+    vec3 emission;            // linear
+    float specular;
+    vec3 specular_color;      // linear
+};
 
-// SAMPLE(texture, uv) is texture() in fragment shaders and textureLod() where there are no derivatives.
-#define EVALUATE_MATERIAL(SAMPLE, s, specular_color, m, uv0, uv1, vertex_color)                                   \
-    vec4 base = m.base_color * vertex_color * SAMPLE(base_color_texture, texture_uv(m, kBaseColorSlot, uv0, uv1)); \
-    vec4 mr = SAMPLE(metallic_roughness_texture, texture_uv(m, kMetallicRoughnessSlot, uv0, uv1));                \
-    s.base_color = min(base.rgb, vec3(1.0));                                                                      \
-    s.alpha = base.a;                                                                                             \
-    s.metallic = m.metallic * mr.b;                                                                               \
-    s.roughness = max(m.roughness * mr.g, kMinRoughness);                                                         \
-    s.emission = m.emission.rgb * SAMPLE(emission_texture, texture_uv(m, kEmissionSlot, uv0, uv1)).rgb;           \
-    s.specular = m.specular.a * SAMPLE(specular_texture, texture_uv(m, kSpecularSlot, uv0, uv1)).a;               \
-    specular_color = m.specular.rgb * SAMPLE(specular_color_texture, texture_uv(m, kSpecularColorSlot, uv0, uv1)).rgb;
+// The material rule, for pixels and for voxels; the path tracer has the same in common/reference/surface.cpp. F0 and
+// F90 are those of the mix of dielectric and metal (KHR_materials_specular; index of refraction 1.5).
+SurfaceMaterial material_at(MaterialData m, TextureSamples t, vec4 vertex_color)
+{
+    vec4 base = m.base_color * vertex_color * t.base_color;
+    SurfaceMaterial s;
+    s.alpha = base.a;
+    s.base_color = min(base.rgb, vec3(1.0));
+    s.metallic = m.metallic * t.metallic_roughness.b;
+    s.roughness = max(m.roughness * t.metallic_roughness.g, kMinRoughness);
+    s.specular = m.specular.a * t.specular;
+    s.albedo = s.base_color * (1.0 - s.metallic);
+    vec3 dielectric_f0 = min(kDielectricF0 * (m.specular.rgb * t.specular_color), vec3(1.0)) * s.specular;
+    s.f0 = mix(dielectric_f0, s.base_color, s.metallic);
+    s.f90 = mix(s.specular, 1.0, s.metallic);
+    s.emission = m.emission.rgb * t.emission;
+    if ((m.flags & kMaterialUnlit) != 0) {  // shines with its colour and reflects nothing
+        s.emission = s.base_color;
+        s.base_color = s.albedo = s.f0 = vec3(0.0);
+        s.f90 = 0.0;
+    }
+    return s;
+}

@@ -21,6 +21,9 @@ CONEBOOK_CONSTANT int kMaterialMasked = 1;
 CONEBOOK_CONSTANT int kMaterialDoubleSided = 2;
 CONEBOOK_CONSTANT int kMaterialUnlit = 4;
 
+// In the word that a triangle has for its material, next to the material's number.
+CONEBOOK_CONSTANT uint kTriangleDoubleSided = 0x80000000u;
+
 struct MaterialData {
     vec4 base_color;         // linear RGBA factor
     vec4 emission;           // rgb: radiance factor W/(sr m^2), a: alpha cutoff

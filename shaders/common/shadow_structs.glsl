@@ -8,12 +8,13 @@ CONEBOOK_SHARED_BEGIN
 
 CONEBOOK_CONSTANT int kShadowMapUnit = 14;
 
-// One layer of the array: a directional or spot light has one, a point light six in a row (+x -x +y -y +z -z).
+// One map: a directional or spot light has one, a point light six in a row (+x -x +y -y +z -z).
 struct ShadowLayer {
     mat4 clip_from_scene;  // depth 1 near, 0 far
+    ivec4 place;           // where it lies: xy its corner, texels; z layer of the array; w its side, texels
 };
 
-// Of a light: x: first layer, y: number of layers, zw unused.
+// Of a light: x: first map, y: number of maps, zw unused.
 struct ShadowLight {
     ivec4 layers;
 };

@@ -51,14 +51,14 @@ Surface read_surface()
     s.view = view_direction(vertex_position);
     s.normal = mapped_normal(m);
     s.geometric_normal = facet_normal(s.view, s.normal);
-    vec3 specular_color;
-    EVALUATE_MATERIAL(texture, s.material, specular_color, m, vertex_uv0, vertex_uv1, vertex_color)
-    set_fresnel(s.material, specular_color);
-    if ((m.flags & kMaterialUnlit) != 0) {  // shines with its colour and reflects nothing
-        s.material.emission = s.material.base_color;
-        s.material.base_color = s.material.albedo = s.material.f0 = vec3(0.0);
-        s.material.f90 = 0.0;
-    }
+    TextureSamples t;
+#define SAMPLE(texture_of_slot, slot) texture(texture_of_slot, texture_uv(m, slot, vertex_uv0, vertex_uv1))
+    t.base_color = SAMPLE(base_color_texture, kBaseColorSlot);
+    t.metallic_roughness = SAMPLE(metallic_roughness_texture, kMetallicRoughnessSlot);
+    t.emission = SAMPLE(emission_texture, kEmissionSlot).rgb;
+    t.specular = SAMPLE(specular_texture, kSpecularSlot).a;
+    t.specular_color = SAMPLE(specular_color_texture, kSpecularColorSlot).rgb;
+    s.material = material_at(m, t, vertex_color);
     if ((m.flags & kMaterialMasked) != 0 && s.material.alpha < m.emission.a) discard;
     return s;
 }

@@ -68,10 +68,18 @@ CONEBOOK_CONSTANT float kFixedPointOne = 1073741824.0;  // 2^30: area * (n + 1) 
 
 // Counters of one voxelization.
 struct VoxelStatistics {
-    uint fragments;    // pairs of triangle and voxel that overlap
     uint degenerate;   // triangles without area, left out
+    uint large;        // triangles of many columns, which the compute voxelizer takes apart
     uint voxels;       // occupied voxels
     uint faces;        // occupied faces of them, one to six a voxel
+};
+
+// A fragment is a pair of a triangle and a voxel that overlap. Where those of a material are in the list of fragments:
+// at [begin, begin + min(count, capacity)).
+struct FragmentRange {
+    uint begin, capacity;
+    uint count;  // found, also where there was no room
+    uint unused;
 };
 
 CONEBOOK_SHARED_END

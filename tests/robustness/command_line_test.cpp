@@ -122,7 +122,7 @@ TEST_P(Program, SaysWhatItCanDo)
     EXPECT_NE(parameters.output.find("exposure "), std::string::npos) << parameters.output;
     EXPECT_EQ(help.code, 0);
     for (const char* option : {"--scene", "--headless", "--size", "--output", "--frames", "--view", "--camera",
-                               "--stats", "--set", "--list-views", "--list-params"})
+                               "--stats", "--set", "--preset", "--save-preset", "--list-views", "--list-params"})
         EXPECT_NE(help.output.find(option), std::string::npos) << option;
 }
 
@@ -141,6 +141,21 @@ TEST_P(Program, GivesTheSamePictureFromAnotherFolderAndAfterMoreFrames)
     // Where frames add up to a better picture, each alone is the first one.
     const bool accumulates = run_program(GetParam(), "--list-params").output.find("accumulate ") != std::string::npos;
     EXPECT_EQ(picture(accumulates ? "--frames 3 --set accumulate=off" : "--frames 3").rgba, here.rgba);
+}
+
+// What a pass leaves switched on, blending above all, shows only in the next frame and in passes that did not expect it.
+TEST_P(Program, LeavesNoStateBehindInTheNextFrame)
+{
+    const std::string parameters = run_program(GetParam(), "--list-params").output;
+    std::string set;
+    for (const std::string name : {"interleave", "accumulate"})  // the latter moves the camera by parts of a pixel
+        if (parameters.find(name + " ") != std::string::npos) set += " --set " + name + "=off";
+    const std::string view = "--scene '" + asset("emissive_shapes").string() + "'" + set + " --view ";
+    const std::string views = run_program(GetParam(), "--list-views").output;
+    for (const char* name : {"normal", "emission"}) {
+        if (views.find(name) == std::string::npos) continue;
+        EXPECT_EQ(picture(view + name + " --frames 3").rgba, picture(view + name).rgba) << name;
+    }
 }
 
 // A copy of shaders/ and assets/ with a fault planted in `file`; $CONEBOOK_ROOT names it while this object lives.
@@ -218,10 +233,10 @@ TEST(OpenGlFaults, AGraveMessageOrAnErrorFails)
         const gl::Texture linear = gl::texture_2d("linear", GL_RGBA32F, {8, 8});
         const gl::Texture display = gl::texture_2d("display", GL_RGBA8, {8, 8});
         linear.clear();
-        while (app.next_frame()) {
+        app.each_frame([&] {
             app.pass("fault", fault);
             app.show(linear, display);
-        }
+        });
         return app.finish();
     };
     const auto message = [](GLenum severity) {

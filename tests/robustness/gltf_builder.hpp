@@ -59,7 +59,9 @@ struct GltfBuilder {
     int add_accessor(const std::vector<T>& values, Component component, const std::string& type,
                      bool normalized = false)
     {
-        const std::size_t components = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
+        const std::size_t components = type == "SCALAR" ? 1
+                                       : type == "MAT4" ? 16
+                                                        : static_cast<std::size_t>(type.back() - '0');
         nlohmann::json accessor = {{"bufferView", add_view(bytes_of(values))},
                                    {"componentType", component},
                                    {"count", values.size() / components},
@@ -158,6 +160,49 @@ inline std::string refusal(const GltfBuilder& gltf)
     return refusal(write_file(folder.path() / "test.glb", gltf.glb()));
 }
 
+// Empty, or what is wrong with the nodes of a loaded scene and with what moves them.
+inline std::string motion_fault(const Scene& scene)
+{
+    const auto is_node = [&](int i) { return i >= 0 && i < static_cast<int>(scene.nodes.size()); };
+    std::uint32_t vertices = 0, indices = 0, draws = 0;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const Node& node = scene.nodes[i];
+        if (node.parent >= static_cast<int>(i)) return "a node stands before its parent";
+        if (node.skin >= static_cast<int>(scene.skins.size())) return "no such skin";
+        if (node.draws.count == 0) continue;
+        if (node.vertices.first != vertices || node.indices.first != indices || node.draws.first != draws) {
+            return "what the nodes placed does not follow each other";
+        }
+        vertices = node.vertices.end();
+        indices = node.indices.end();
+        draws = node.draws.end();
+        for (std::uint32_t v = node.indices.first; v < indices; ++v) {
+            if (scene.indices[v] < node.vertices.first || scene.indices[v] >= vertices) return "a vertex is shared";
+        }
+    }
+    if (vertices != scene.vertices.size() || indices != scene.indices.size() || draws != scene.draws.size()) {
+        return "the nodes did not place everything";
+    }
+    for (const Skin& skin : scene.skins) {
+        if (skin.joints.empty() || skin.joints.size() != skin.inverse_bind.size()) return "a skin without joints";
+        for (const int joint : skin.joints) {
+            if (!is_node(joint)) return "no such joint";
+        }
+    }
+    for (const Animation& animation : scene.animations) {
+        for (const AnimationChannel& channel : animation.channels) {
+            if (!is_node(channel.node)) return "a channel moves no node";
+            const AnimationSampler& curve = animation.samplers.at(static_cast<std::size_t>(channel.sampler));
+            const std::size_t width = channel.path == AnimationPath::weights
+                                          ? scene.nodes[static_cast<std::size_t>(channel.node)].weights.size()
+                                      : channel.path == AnimationPath::rotation ? 4
+                                                                                : 3;
+            if (curve.times.empty() || curve.width() != width) return "a curve has the wrong width";
+        }
+    }
+    return "";
+}
+
 // Empty, or what is wrong with a loaded scene: everything finite and in range, whatever was in the file.
 inline std::string scene_fault(const Scene& scene)
 {
@@ -226,7 +271,7 @@ inline std::string scene_fault(const Scene& scene)
             if (!finite(camera.world_from_camera[c])) return "a camera is not finite";
         }
     }
-    return "";
+    return motion_fault(scene);
 }
 
 }  // namespace conebook::test

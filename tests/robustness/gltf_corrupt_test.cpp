@@ -96,6 +96,18 @@ GltfBuilder a_bit_of_everything()
                           {{"mesh", 0}},
                           {{"camera", 0}, {"translation", {0, 0, 4}}},
                           {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}};
+    const int times = gltf.add_floats({0, 1}, 1);
+    const int turns = gltf.add_floats({0, 0, 0, 1, 0, 0, 1, 0}, 4);
+    const int moves = gltf.add_floats(std::vector<float>(18, 0.5f), 3);
+    gltf.root["animations"] = {{{"samplers",
+                                 {{{"input", times}, {"output", turns}, {"interpolation", "STEP"}},
+                                  {{"input", times}, {"output", moves}, {"interpolation", "CUBICSPLINE"}}}},
+                                {"channels",
+                                 {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}},
+                                  {{"sampler", 1}, {"target", {{"node", 1}, {"path", "translation"}}}}}}}};
+    const int binding = gltf.add_accessor(std::vector<float>(32, 1.0f), f32, "MAT4");
+    gltf.root["skins"] = {{{"joints", {2, 3}}, {"inverseBindMatrices", binding}, {"skeleton", 0}}};
+    gltf.root["nodes"][1]["skin"] = 0;
     return gltf;
 }
 
@@ -134,6 +146,8 @@ TEST_F(DamageTest, TheFileItselfIsSound)
     EXPECT_EQ(scene.lights.size(), 1u);
     EXPECT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.images.size(), 1u);
+    EXPECT_EQ(scene.animations.size(), 1u);
+    EXPECT_EQ(scene.skins.size(), 1u);
 }
 
 TEST_F(DamageTest, TruncatedAnywhere)

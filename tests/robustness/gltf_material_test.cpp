@@ -140,6 +140,35 @@ TEST(GltfMaterials, BlendIsAMaskOnlyWhereSomethingIsTranslucent)
     }
 }
 
+// A half float ends at 65504. The texture counts too, and what no triangle uses does not.
+TEST(GltfMaterials, AnEmissionBeyondHalfFloatsIsNoted)
+{
+    const auto note_of = [](float strength, std::uint8_t texel, bool used) {
+        GltfBuilder gltf = triangle_with_material(json::object());
+        const int texture = gltf.add_texture({texel, 0, 0, 255}, 1, 1);
+        gltf.root["materials"][0] = {
+            {"name", "lamp"},
+            {"emissiveFactor", {1, 0.5, 0}},
+            {"emissiveTexture", {{"index", texture}}},
+            {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", strength}}}}}};
+        if (!used) primitive(gltf).erase("material");
+        const Scene scene = gltf.load();
+        EXPECT_EQ(scene.materials[0].emission.r, strength);
+        for (const std::string& line : scene.warnings) {
+            if (line.find("half float") != std::string::npos) return line;
+        }
+        return std::string();
+    };
+    EXPECT_EQ(note_of(1e7f, 255, true).substr(0, 60), "materials[0] 'lamp' emits a radiance of 1e+07 W/(sr m^2); th");
+    EXPECT_EQ(note_of(65504.0f, 255, true), "");
+    EXPECT_NE(note_of(65600.0f, 255, true), "");
+    EXPECT_EQ(note_of(1e7f, 255, false), "");
+    // sRGB 12 is 0.00368 of the light: ((12/255 + 0.055) / 1.055)^2.4.
+    EXPECT_EQ(note_of(1.7e7f, 12, true), "");
+    EXPECT_NE(note_of(1.8e7f, 12, true), "");
+    EXPECT_EQ(note_of(1e30f, 0, true), "");
+}
+
 TEST(GltfTextures, PixelsSamplersAndSharedImages)
 {
     const std::vector<std::uint8_t> rgba = {255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 0, 10, 20, 30, 40};

@@ -95,7 +95,12 @@ const std::vector<Fault> faults = {
      [](GltfBuilder& g) {
          g.root["nodes"][0]["scale"] = {1e20, 1, 1};
      },
-     "larger than 1e18 m"},
+     "larger than 1e9 m"},
+    {"too_small",
+     [](GltfBuilder& g) {
+         g.root["nodes"][0]["scale"] = {9e-7, 9e-7, 9e-7};
+     },
+     "smaller than 1e-6 m"},
     {"no_position", [](GltfBuilder& g) { primitive(g)["attributes"] = json::object(); }, "has no POSITION"},
     {"position_of_two",
      [](GltfBuilder& g) {

@@ -22,8 +22,8 @@ def _on_floor(a, b, floor=0.0, slope=0.0):
 
 
 def cone_to_light():
-    """A point sees a sphere under the half angle a; the cone through the voxels is as wide."""
-    d = Drawing("From a point a lamp of radius r at distance d is seen within a cone of half angle a, which the voxels fill in part",
+    """A point sees a sphere under the half angle a; thin cones through the voxels divide it."""
+    d = Drawing("From a point a lamp of radius r at distance d is seen within a cone of half angle a, divided into thin cones",
                 -0.4, -0.7, 12.6, 5.2)
     point, light, radius = (1.2, 0.5), (10.4, 3.6), 1.15
     touch = _tangent_points(point, light, radius)
@@ -33,8 +33,9 @@ def cone_to_light():
         for j in range(4):
             d.box((5.2 + size * i, 0.2 + size * j), (5.8 + size * i, 0.8 + size * j), GREY, LIGHT, 1)
     d.circle(light, radius, ORANGE, PALE[ORANGE], 2)
-    for t in touch:
-        d.line(point, t, ORANGE, 1.5)
+    for i in range(7):
+        x, y = (touch[0][k] + (touch[1][k] - touch[0][k]) * i / 6 for k in (0, 1))
+        d.line(point, (x, y), ORANGE, 1.5 if i in (0, 6) else 0.7)
     d.line(point, light, INK, 1, "6 4")
     d.line(light, touch[0], INK, 1.2)
     d.box((0, 0.2), (4.4, 0.5), GREY, LIGHT, 1)
@@ -48,7 +49,7 @@ def cone_to_light():
     d.label((10.4, 2.2), "lamp", ORANGE, place="below")
     d.label((6.1, 0.05), "voxels of an occluder", GREY, place="below")
     d.label((2.4, 2.9), "sin a = r / d", RED, size=17)
-    d.label((7.5, 1.1), "V: the share of the cone\nthat the voxels leave open", INK, "start", "below", 14)
+    d.label((7.5, 1.1), "V: what the voxels leave\nopen of the thin cones", INK, "start", "below", 14)
     return d
 
 
