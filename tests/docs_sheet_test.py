@@ -66,7 +66,7 @@ class Sheet(unittest.TestCase):
         for name, rows in zip(names, pictures):
             write_png(name, rows)
         out = self.folder / "out.png"
-        result = subprocess.run([SHEET, *options, "--output", out, *names], capture_output=True, text=True)
+        result = subprocess.run([SHEET, "--output", out, *options, *names], capture_output=True, text=True)
         self.assertEqual(result.returncode, code, result.stderr)
         if code:
             self.assertFalse(out.exists())
@@ -119,7 +119,7 @@ class Sheet(unittest.TestCase):
         grey = [[(90, 90, 90)] * 201 for _ in range(5)]
         # shares of white as bytes; counts as linear light (shaders/common/color_scales.glsl, 2 and 4 of 1 .. 16);
         # differences at -1, 0, 1 times their full colour
-        expected = {"grey": {0.2: (51,) * 3, 0.5: (128,) * 3},
+        expected = {"grey": {0.2: (51,) * 3, 0.5: (128,) * 3}, "heat": {0.25: (191, 0, 0), 0.5: (255, 128, 0)},
                     "counts": {0.25: [srgb(c) for c in (0.05, 0.25, 0.9)], 0.5: [srgb(c) for c in (0.1, 0.8, 0.2)]},
                     "difference": {0.25: (0, 115, 255), 0.5: (0, 0, 0), 0.75: (255, 89, 0)}}
         for colors, places in expected.items():

@@ -320,6 +320,88 @@ both.png: sheet --columns 2 a.png heat.png
         self.assertIn(f"a.png: skipped, there is no {self.root}/shared/not_there.glb", self.gallery("a.png", code=1))
 
 
+class MeasuredNumbers(Repository):
+    """Programs that tell what they were called with, and a page that asks for it."""
+    CHECK = ("page_numbers.py", "--check")
+
+    def setUp(self):
+        super().setUp()
+        told = ("{\"driver\": \"d, 4.5\", \"counts\": [{\"name\": \"voxels\", \"value\": 1234.0}], "
+                "\"passes\": [{\"name\": \"draw\", \"min_ms\": 2.5}], \"resources\": [{\"name\": \"t\", \"bytes\": 3000000}]}")
+        self.program("01_first", f"'{told}'")
+        self.program("compare", "'{\"smape\": 0.25}'")
+        self.program("01_test", '"{\\"testsuites\\": [{\\"testsuite\\": [{\\"name\\": \\"Wall\\", \\"time\\": \\"1s\\", \\"most\\": '
+                                '\\"$(grep -c "float s" $CONEBOOK_ROOT/shaders/a.comp)\\"}]}]}"; exit 1')
+        self.write("docs/data/numbers.txt", """\
+# comment
+01_a: 01 --set voxels=64
+01_b: 01 --scene assets/x.glb --camera 1
+01_error: compare 01_a 01_b
+01_edited: edit shaders/a.comp "float s = 1;" "" test 01_test --gtest_filter=*
+""")
+        marks = ['whole(count("01_a", "voxels"))', 'fixed(ms("01_a", "draw") + megabytes("01_b", "t"), 1)',
+                 'percent(value("01_error", "smape"))', 'value("01_edited", "Wall.most")', 'command("01_b")',
+                 'table("run | ms", {"a": "01_a", "b": "01_b"}, lambda run: [fixed(ms(run, "draw"), 1)])']
+        self.edit("docs/01_first.md", "## Pitfalls", "\n".join(f"<!-- data: {m} --><!-- end -->" for m in marks) + "\n## Pitfalls")
+        self.measure()
+
+    def program(self, name, told):
+        self.write(f"build/bin/{name}", '#!/bin/bash\necho "$0 $*" >>"${0%/*}/log"\nwhile [ $# -gt 0 ]; do case "$1" in '
+                   '--stats|--json) out="$2" ;; --gtest_output=json:*) out="${1#*:}" ;; esac; shift; done\n'
+                   f'echo {told.partition("; ")[0]} >"$out"\n{told.partition("; ")[2]}\n')
+        (self.root / f"build/bin/{name}").chmod(0o755)
+
+    def measure(self, *names):
+        result = subprocess.run([sys.executable, TOOLS / "page_numbers.py", "--root", self.root, "--measure", *(("--only", *names) if names else ())],
+                                capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+
+    def test_what_was_measured_is_on_the_page(self):
+        self.passes(*self.CHECK)
+        page = (self.root / "docs/01_first.md").read_text()
+        for value in ("1,234", "5.5", "25 %", "`./run 01 --scene assets/x.glb --camera 1`",
+                      "\n| run | ms |\n|---|---|\n| a | 2.5 |\n| b | 2.5 |\n"):
+            self.assertIn(f"-->{value}<!-- end -->", page)
+        self.assertIn("-->0.0<!-- end -->", page)  # the test saw the edited shader
+        self.assertIn("float s = 1;", (self.root / "shaders/a.comp").read_text())
+
+    def test_runs_have_their_commands(self):
+        log = (self.root / "build/bin/log").read_text()
+        pictures = self.root / "build/numbers"
+        self.assertIn(f"01_first --scene {self.root}/assets/x.glb --camera 1 --headless --output {pictures}/01_b.exr --stats", log)
+        self.assertIn(f"compare {pictures}/01_a.exr {pictures}/01_b.exr --json", log)
+        self.assertLess(log.index("01_a.exr --stats"), log.index("/compare"))
+
+    def test_a_typed_number_is_found_and_written_again(self):
+        before = (self.root / "docs/01_first.md").read_text()
+        self.edit("docs/01_first.md", "1,234", "1,235")
+        self.fails(self.at("1,235") + ': whole(count("01_a", "voxels")) is not what docs/data/numbers.json gives', *self.CHECK)
+        self.passes("page_numbers.py", "--write")
+        self.assertEqual((self.root / "docs/01_first.md").read_text(), before)
+
+    def test_a_changed_or_new_run_must_be_measured(self):
+        self.edit("docs/data/numbers.txt", "voxels=64", "voxels=32")
+        self.fails("docs/data/numbers.txt: 01_a was measured with another command", *self.CHECK)
+        self.measure("01_a")
+        self.passes(*self.CHECK)
+        self.edit("docs/data/numbers.txt", "01_a:", "01_c: 01\n01_a:")
+        self.fails("docs/data/numbers.txt: 01_c was not measured", *self.CHECK)
+
+    def test_a_run_that_no_page_asks_for_is_found(self):
+        self.edit("docs/data/numbers.txt", "01_a:", "01_c: 01\n01_a:")
+        result = subprocess.run([sys.executable, TOOLS / "page_numbers.py", "--root", self.root, "--measure", "--only", "01_c"],
+                                capture_output=True, text=True)
+        self.assertEqual(result.returncode, 1)
+        self.fails("docs/data/numbers.txt: no page asks for 01_c", *self.CHECK)
+
+    def test_an_edit_must_find_its_place(self):
+        self.edit("docs/data/numbers.txt", "float s = 1;", "float s = 9;")
+        result = subprocess.run([sys.executable, TOOLS / "page_numbers.py", "--root", self.root, "--measure", "--only", "01_edited"],
+                                capture_output=True, text=True)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("shaders/a.comp holds 'float s = 9;' 0 times, not once", result.stderr)
+
+
 class Drawings(Repository):
     CHECK = ("drawings", "--check")
     NAME = "docs/figures/03_depth_compare.svg"

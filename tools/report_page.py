@@ -11,25 +11,17 @@ import sys
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from pages import ROOT, lines_with_fences, report  # noqa: E402
+from pages import MARK, ROOT, filled_marks, lines_with_fences, report, stale_marks  # noqa: E402
 from report_answers import Answers  # noqa: E402
 
 PAGE, DATA = Path("docs/14_speed_against_error.md"), Path("docs/data/report.json")
-MARK = re.compile(r"<!-- data: (.+?) -->(.*?)<!-- end -->", re.S)
 MEASURED = re.compile(r"\d\.\d|\b\d+ ?(?:%|ms\b|MB\b|s\b|times\b|samples\b|minutes\b)")
 
 
-def filled(text, answers):
-    """The page with every mark's value made anew. Raises ValueError naming an expression that fails."""
-    names = {name: getattr(answers, name) for name in dir(answers) if not name.startswith("_")}
-
-    def value(match):
-        try:
-            made = eval(match.group(1), {"__builtins__": {}}, names)  # the page is the repository's own
-        except Exception as fault:
-            raise ValueError(f"{PAGE}: <!-- data: {match.group(1)} -->: {type(fault).__name__}: {fault}") from fault
-        return f"<!-- data: {match.group(1)} -->{made}<!-- end -->"
-    return MARK.sub(value, text)
+def names_of(root):
+    """The functions that an expression may call."""
+    answers = Answers(json.loads((root / DATA).read_text()))
+    return {name: getattr(answers, name) for name in dir(answers) if not name.startswith("_")}
 
 
 def typed_numbers(text):
@@ -44,21 +36,16 @@ def typed_numbers(text):
 
 def problems_of(root):
     text = (root / PAGE).read_text()
-    answers = Answers(json.loads((root / DATA).read_text()))
-    if not MARK.search(text):
+    stale, count = stale_marks(text, names_of(root), PAGE, DATA, "report_page.py")
+    if not count:
         return [f"{PAGE}: holds no <!-- data: ... --> mark"]
-    found = [f"{PAGE}:{n}: a number that is not made from the data: {line}" for n, line in typed_numbers(text)]
-    for old, new in zip(MARK.finditer(text), MARK.finditer(filled(text, answers))):
-        if old.group(2) != new.group(2):
-            line = text[:old.start()].count("\n") + 1
-            found.append(f"{PAGE}:{line}: {old.group(1)} is not what {DATA} gives; run tools/report_page.py --write")
-    return found
+    return [f"{PAGE}:{n}: a number that is not made from the data: {line}" for n, line in typed_numbers(text)] + stale
 
 
 def write(root):
     """Returns the exit code."""
     page = root / PAGE
-    page.write_text(filled(page.read_text(), Answers(json.loads((root / DATA).read_text()))))
+    page.write_text(filled_marks(page.read_text(), names_of(root), PAGE))
     return report(problems_of(root), f"{PAGE} holds the data")
 
 

@@ -186,14 +186,15 @@ int main(int argc, char** argv)
         ->check(CLI::PositiveNumber);
     app.add_option("--crop", options.crop, "X,Y,WIDTH,HEIGHT: only this part of each picture")
         ->delimiter(',')
-        ->expected(4);
+        ->expected(4)
+        ->allow_extra_args(false);
     app.add_option("--label", options.labels, "text above a picture; once for each picture, in their order")
-        ->expected(1)
+        ->allow_extra_args(false)  // the next word is a picture
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option(
-           "--scale", options.bar.colors,
-           "colour bar below: grey (0 to --scale-end), difference (full colour at --scale-end), counts (1 to 16)")
-        ->check(CLI::IsMember({"grey", "difference", "counts"}));
+    app.add_option("--scale", options.bar.colors,
+                   "colour bar below: grey or heat (0 to --scale-end), difference (full colour at --scale-end), counts "
+                   "(1 to 16)")
+        ->check(CLI::IsMember({"grey", "heat", "difference", "counts"}));
     app.add_option("--scale-end", options.bar.end, "the value at the bar's end; default 1")->check(CLI::PositiveNumber);
     app.add_option("--unit", options.bar.unit, "what the colour bar's numbers are");
     CLI11_PARSE(app, argc, argv);

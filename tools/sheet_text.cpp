@@ -71,7 +71,9 @@ std::vector<Tick> ticks_of(const ScaleBar& bar)
 glm::vec3 color_at(const ScaleBar& bar, float at)
 {
     if (bar.colors == "counts") return color_scales::count_color(std::exp2(4.0f * at));
-    const glm::vec3 shown = bar.colors == "grey" ? glm::vec3(at) : color_scales::difference_color(4.0f * at - 2.0f);
+    const glm::vec3 shown = bar.colors == "grey"   ? glm::vec3(at)
+                            : bar.colors == "heat" ? color_scales::heat_color(at)
+                                                   : color_scales::difference_color(4.0f * at - 2.0f);
     return {srgb_decode(shown.r), srgb_decode(shown.g), srgb_decode(shown.b)};
 }
 

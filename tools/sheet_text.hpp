@@ -14,8 +14,8 @@ float srgb_decode(float v);
 ImageF labelled(const ImageF& picture, const std::string& text);
 
 struct ScaleBar {
-    std::string
-        colors;  // grey: from 0 to `end`; difference: both signs, full at `end`, white at twice; counts: 1 to 16
+    // grey, heat: from 0 to `end`; difference: both signs, full at `end`, white at twice; counts: 1 to 16
+    std::string colors;
     float end = 1.0f;
     std::string unit;  // what the numbers are
 };

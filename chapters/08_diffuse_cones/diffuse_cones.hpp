@@ -31,7 +31,8 @@ struct ConeParams {
     // Voxels from the middle of the surface's own voxel to the cone's start, 0 .. 8: with more, light of what is near
     // looks nearer than it is (a lamp at height h by h^2 / (h - offset)^2); with less, slanted surfaces light themselves.
     float start_offset = 0.75f;
-    // march, linear: coverages add up until nothing is left, right for surfaces; exponential: as in a fog, for comparison.
+    // march. linear: coverages add up until nothing is left, right for surfaces; exponential, for comparison: each step
+    // leaves (1 - A)^2 of what is open, as a fog of twice the depth that covers A.
     int transmittance = 0;
     // Ambient occlusion falls off as 1 / (1 + lambda r), lambda in 1/m, 0 .. 100.
     float ao_falloff = 1.0f;

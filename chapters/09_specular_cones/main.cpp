@@ -1,9 +1,10 @@
 // 09_specular_cones: glossy reflection by a few cones a pixel, from mirror to matte.
 //
-// The GGX lobe around the mirror direction r becomes a cone that holds the share p of it; its mean radiance is weighted
-// with the lobe's directional albedo, which a table holds:
+// N cones share the GGX lobe: their directions mirror the eye's at normals that it sees, and together they are as wide as
+// the share p of the lobe. Their weighted mean is multiplied by the lobe's directional albedo, which a table holds:
 //
-//     L_o = (F0 x + F90 y) * L_cone(r),     tan(theta_h) = alpha sqrt(p / (1 - p)),   half angle = 2 theta_h
+//     L_o = (F0 x + F90 y) * sum_i w_i L_i / sum_i w_i,     w = F(v.h) G2 / G1
+//     tan(theta_h) = alpha sqrt(p / (1 - p)),     half angle of a cone = 2 theta_h / sqrt(N)
 //
 // Page: docs/09_specular_cones.md
 #include "01_first_light/first_light.hpp"

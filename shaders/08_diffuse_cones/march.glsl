@@ -27,7 +27,8 @@ vec4 sample_level(vec3 position, vec3 direction, int level, float t)
 // How much of a cone a step stops that runs through the coverage A (it may exceed 1), `open` of the cone being left.
 // linear: what the filter has spread over neighbouring voxels belongs together. A wall blurred over two voxels covers u
 // here and 1 - u there, 1 in all, and stops the cone wholly (Vicini et al. 2021, section 4).
-// exponential: as in a fog, with twice the depth so that a blurred wall leaks little: tau = -2 ln(1 - A).
+// exponential: as in a fog of twice the depth that covers A, tau = -2 ln(1 - A), so that (1 - A)^2 stays open; a blurred wall
+// leaks (u (1 - u))^2, at most 1/16.
 // snippet: stopped_share
 float stopped_share(float coverage, float open)
 {

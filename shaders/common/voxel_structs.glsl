@@ -32,7 +32,7 @@ CONEBOOK_CONSTANT int kFaceCount = 6;
 
 // One face of an occupied voxel: means over all fragments of that face, weighted by their area.
 struct VoxelFace {
-    vec4 albedo_area;  // rgb: diffuse reflectance rho, linear; a: area inside the voxel, in voxel sides squared
+    vec4 albedo_area;  // rgb: share that both lobes reflect, linear; a: area inside the voxel, in voxel sides squared
     vec4 normal;       // xyz: unit mean normal
     vec4 emission;     // rgb: radiance W/(sr m^2)
     vec4 position;     // xyz: centroid in grid space
@@ -64,7 +64,7 @@ CONEBOOK_CONSTANT int kSumEmission = 4;   // 3
 CONEBOOK_CONSTANT int kSumNormal = 7;     // 3, of (n + 1)
 CONEBOOK_CONSTANT int kSumPosition = 10;  // 3, within the voxel, 0..1
 CONEBOOK_CONSTANT int kSumCount = 13;
-CONEBOOK_CONSTANT float kFixedPointOne = 1073741824.0;  // 2^30: area * (n + 1) of a fragment is at most 2 sqrt(3) < 4 = 2^32 / 2^30
+CONEBOOK_CONSTANT float kFixedPointOne = 1073741824.0;  // 2^30: area * (n + 1) of a fragment is at most 2 sqrt(2) < 4 = 2^32 / 2^30
 
 // Counters of one voxelization.
 struct VoxelStatistics {

@@ -124,6 +124,10 @@ check_has "the ladder" "^python3 $repository/tools/ladder.py --bin $repository/b
 call -- run report --quick --no-figures
 check_has "report builds what it measures" '^ninja .* 14_speed_against_error 12_second_bounce reference compare sheet$' "$log"
 check_has "report" "^python3 $repository/tools/report.py --quick --no-figures\$" "$log"
+fake python3 'case "$*" in *--targets*) echo 07_first compare ;; esac'
+call -- run numbers --only 07
+check_has "numbers builds what it measures" '^ninja .* 07_first compare$' "$log"
+check_has "numbers" "^python3 $repository/tools/page_numbers.py --bin $repository/build/bin --measure --only 07\$" "$log"
 call -- run bench --quick --no-figures
 check_has "bench builds what it measures" '^ninja .* 14_speed_against_error bench_fetch$' "$log"
 check_has "bench" "^python3 $repository/tools/bench.py --quick --no-figures\$" "$log"
