@@ -178,13 +178,13 @@ void ShadowMaps::aim(const GpuScene& scene)
 {
     // What moves may throw its shadow anywhere, and a map that follows it would flicker.
     const bool fits = !scene.may_move() && !scene.lights().empty();
-    const std::vector<Triangle> triangles = fits ? scene.triangles() : std::vector<Triangle>{};
+    if (fits && triangles_of_.differs(scene.geometry_revision())) triangles_ = scene.triangles();
     const auto make_layers = [&](int map_size) {
         layers_.clear();
         lights_.clear();
         for (const Light& light : scene.lights()) {
             const std::vector<glm::mat4> matrices =
-                shadow_matrices(light, scene.bounds(), fits ? &triangles : nullptr, map_size);
+                shadow_matrices(light, scene.bounds(), fits ? &triangles_ : nullptr, map_size);
             lights_.push_back({glm::ivec4(layers(), int(matrices.size()), 0, 0)});
             for (const glm::mat4& m : matrices) layers_.push_back({m, glm::ivec4(0)});
         }

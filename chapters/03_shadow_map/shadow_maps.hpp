@@ -52,6 +52,8 @@ private:
     Revision revision_ = 0;
     bool drawn_ = false;
     gl::Program program_;
+    std::vector<Triangle> triangles_;  // of the scene, kept for lights that move
+    MadeFrom<Revision> triangles_of_;  // geometry
     std::vector<shared::ShadowLayer> layers_;
     std::vector<shared::ShadowLight> lights_;
     gl::Buffer layer_buffer_, light_buffer_;

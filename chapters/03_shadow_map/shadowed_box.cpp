@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 namespace conebook {
 
@@ -78,6 +79,18 @@ public:
         }
         const auto [near, far] = depths();
         return NdcBox{glm::dvec3(low_, far), glm::dvec3(high_, near)};
+    }
+
+    // Corners of all that the light sees, cut off at the sides of its view.
+    const std::vector<glm::dvec3>& points() const { return points_; }
+
+    // Whether shadows fall so far apart that a fitted map would gain nothing. More triangles make them no narrower.
+    bool finds_wide_shadows()
+    {
+        std::vector<std::uint32_t> all(facets_.size());
+        for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+        visit({glm::dvec2(-1.0), 2.0}, all, 0);
+        return is_wide();
     }
 
 private:
@@ -230,11 +243,56 @@ private:
     std::size_t work_ = 0;
 };
 
+// All that the light sees, and the depths of it. Only triangles on the sides of the view have to be cut.
+NdcBox whole_view(const glm::dmat4& clip_from_scene, const std::vector<Triangle>& triangles, double diameter_m)
+{
+    NdcBox box{glm::dvec3(-1.0, -1.0, 1.0), glm::dvec3(1.0, 1.0, 0.0)};
+    const auto extend = [&](double depth) {
+        box.low.z = std::min(box.low.z, depth);
+        box.high.z = std::max(box.high.z, depth);
+    };
+    std::vector<Triangle> cut;
+    for (const Triangle& triangle : triangles) {
+        std::array<glm::dvec4, 3> p;
+        int outside_any = 0, outside_all = 31;  // a bit for each side of the view
+        for (std::size_t i = 0; i < 3; ++i) {
+            p[i] = clip_from_scene * glm::dvec4(triangle.corners[i], 1.0);
+            const int outside = (p[i].w + p[i].x < 0.0 ? 1 : 0) | (p[i].w - p[i].x < 0.0 ? 2 : 0) |
+                                (p[i].w + p[i].y < 0.0 ? 4 : 0) | (p[i].w - p[i].y < 0.0 ? 8 : 0) |
+                                (p[i].w - p[i].z < 0.0 ? 16 : 0);
+            outside_any |= outside;
+            outside_all &= outside;
+        }
+        if (outside_any == 0)
+            for (const glm::dvec4& corner : p) extend(corner.z / corner.w);
+        else if (outside_all == 0)
+            cut.push_back(triangle);
+    }
+    const Search on_sides(clip_from_scene, cut, diameter_m);
+    for (const glm::dvec3& point : on_sides.points()) extend(point.z);
+    return box;
+}
+
 }  // namespace
 
 std::optional<NdcBox> shadowed_box(const glm::dmat4& clip_from_scene, const std::vector<Triangle>& triangles,
                                    double diameter_m)
 {
+    // The largest triangles tell in most scenes that all of the map is needed.
+    constexpr std::size_t kLargest = 1024;
+    if (triangles.size() > 4 * kLargest) {
+        const auto area = [](const Triangle& t) {
+            return glm::length(glm::cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
+        };
+        std::vector<std::pair<float, std::uint32_t>> by_area;
+        by_area.reserve(triangles.size());
+        for (std::uint32_t i = 0; i < triangles.size(); ++i) by_area.emplace_back(area(triangles[i]), i);
+        std::nth_element(by_area.begin(), by_area.begin() + kLargest, by_area.end(), std::greater<>());
+        std::vector<Triangle> largest;
+        for (std::size_t i = 0; i < kLargest; ++i) largest.push_back(triangles[by_area[i].second]);
+        if (Search(clip_from_scene, largest, diameter_m).finds_wide_shadows())
+            return whole_view(clip_from_scene, triangles, diameter_m);
+    }
     return Search(clip_from_scene, triangles, diameter_m).run();
 }
 
