@@ -29,7 +29,12 @@ std::filesystem::path temporary_for(const std::filesystem::path& file)
     // A rename would put a file in the place of a device such as /dev/null.
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         throw fault(file, "it is no file");
-    return folder / ("." + file.filename().string() + "." + std::to_string(getpid()) + ".part");
+    std::string hidden(1, '.');
+    hidden += file.filename().string();
+    hidden += '.';
+    hidden += std::to_string(getpid());
+    hidden += ".part";
+    return folder / hidden;
 }
 
 void write_temporary(const std::filesystem::path& file, const std::filesystem::path& temporary, std::string_view bytes)
