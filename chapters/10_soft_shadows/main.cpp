@@ -78,7 +78,7 @@ try {
                              g_buffer.resources(), lighting.resources()})
         app.statistics().add_resources(part);
     for (const auto& needs : {surface_needs(app.scene()), voxel_material_needs(scene), shadow_maps.needs(scene),
-                              lighting.needs(shadow_params)})
+                              soft_shadow_needs(shadow_params, !app.scene().lights.empty())})
         app.statistics().add_needs(needs);
     app.statistics().add_needs({light_need(app.scene()), sky_need(cone_params.sky)});
     return app.finish();

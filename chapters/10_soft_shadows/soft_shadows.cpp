@@ -12,6 +12,14 @@ void add_parameters(ParameterTable& table, SoftShadowParams& params)
     table.add("shadow_cones", params.shadow_cones, 1, 64, "cones", "to each light, each thin");
 }
 
+std::vector<Need> soft_shadow_needs(const SoftShadowParams& params, bool has_lights)
+{
+    constexpr const char* kAsked[] = {"shadows=map", "shadows=cone", "shadows=volume"};
+    const std::string reason = has_lights ? kAsked[params.shadows] : "the scene has no lights but surfaces that shine";
+    return {{"shadow cones", has_lights && params.shadows == int(ShadowMethod::cone), reason},
+            {"visibility volume", has_lights && params.shadows == int(ShadowMethod::volume), reason}};
+}
+
 SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders)
     : lighting_(shaders, {"common/fullscreen.vert", "10_soft_shadows/soft_lighting.frag"}),
       fill_volume_(shaders.load({"10_soft_shadows/visibility_volume.comp"}))
@@ -64,14 +72,6 @@ const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuSce
 std::vector<gl::Resource> SoftShadowLighting::resources() const
 {
     return {color_.resource(), visibility_volume_.resource()};
-}
-
-std::vector<Need> SoftShadowLighting::needs(const SoftShadowParams& params) const
-{
-    constexpr const char* kAsked[] = {"shadows=map", "shadows=cone", "shadows=volume"};
-    const std::string asked = kAsked[params.shadows];
-    return {{"shadow cones", params.shadows == int(ShadowMethod::cone), asked},
-            {"visibility volume", params.shadows == int(ShadowMethod::volume), asked}};
 }
 
 }  // namespace conebook

@@ -10,10 +10,8 @@ LightPlan plan_light(const SceneTraits& scene, const VoxelShadingParams& voxels,
                      const SoftShadowParams& pixels)
 {
     // Shadows of what lights reach straight.
-    constexpr const char* kPixelShadows[] = {"shadows=map", "shadows=cone", "shadows=volume"};
-    const std::string asked =
-        scene.has_lights ? kPixelShadows[pixels.shadows] : "the scene has no lights but surfaces that shine";
-    const auto pixels_ask = [&](ShadowMethod method) { return scene.has_lights && pixels.shadows == int(method); };
+    const std::vector<Need> by_voxels = soft_shadow_needs(pixels, scene.has_lights);
+    const bool pixels_ask = scene.has_lights && asks_shadow_maps(pixels);
     const bool voxels_ask = scene.has_lights && voxels.voxel_shadows == int(VoxelShadows::map);
 
     // Light by way of other surfaces.
@@ -22,10 +20,10 @@ LightPlan plan_light(const SceneTraits& scene, const VoxelShadingParams& voxels,
     const std::string direct_alone = bounces_asked + ": direct light alone";
 
     LightPlan plan;
-    plan.shadow_maps = {"shadow maps", pixels_ask(ShadowMethod::map) || voxels_ask,
-                        voxels_ask && !pixels_ask(ShadowMethod::map) ? "voxel_shadows=map" : asked};
-    plan.shadow_cones = {"shadow cones", pixels_ask(ShadowMethod::cone), asked};
-    plan.visibility_volume = {"visibility volume", pixels_ask(ShadowMethod::volume), asked};
+    plan.shadow_maps = {"shadow maps", pixels_ask || voxels_ask,
+                        voxels_ask && !pixels_ask ? "voxel_shadows=map" : by_voxels[0].reason};
+    plan.shadow_cones = by_voxels[0];
+    plan.visibility_volume = by_voxels[1];
     plan.further_bounces = {"further bounces", bounces.bounces < 0 || bounces.bounces > 1, bounces_asked};
     plan.diffuse_cones = {"diffuse cones", indirect, indirect ? "for indirect light" : direct_alone};
     plan.specular_cones = indirect ? scene.specular_cones : Need{"specular cones", false, direct_alone};
