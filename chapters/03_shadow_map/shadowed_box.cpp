@@ -69,9 +69,7 @@ public:
 
     std::optional<NdcBox> run()
     {
-        std::vector<std::uint32_t> all(facets_.size());
-        for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-        visit({glm::dvec2(-1.0), 2.0}, all, 0);
+        visit_all();
         if (low_.x > high_.x && !is_exhausted()) return {};
         if (is_wide() || is_exhausted()) {
             low_ = glm::dvec2(-1.0);
@@ -87,9 +85,7 @@ public:
     // Whether shadows fall so far apart that a fitted map would gain nothing. More triangles make them no narrower.
     bool finds_wide_shadows()
     {
-        std::vector<std::uint32_t> all(facets_.size());
-        for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
-        visit({glm::dvec2(-1.0), 2.0}, all, 0);
+        visit_all();
         return is_wide();
     }
 
@@ -128,7 +124,8 @@ private:
         return s.low.x >= low_.x && s.low.y >= low_.y && s.low.x + s.side <= high_.x && s.low.y + s.side <= high_.y;
     }
 
-    // Whether the facet and a square have a point in common: neither the square's sides nor the facet's keep them apart.
+    // Whether the facet and a square have a point in common: neither the square's sides nor the facet's keep them
+    // apart.
     bool overlaps(const Facet& f, glm::dvec2 low, glm::dvec2 high) const
     {
         if (apart(f.low, f.high, low, high)) return false;
@@ -139,6 +136,13 @@ private:
             if (d.x * (innermost.y - from.y) - d.y * (innermost.x - from.x) < 0.0) return false;
         }
         return true;
+    }
+
+    void visit_all()
+    {
+        std::vector<std::uint32_t> all(facets_.size());
+        for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
+        visit({glm::dvec2(-1.0), 2.0}, all, 0);
     }
 
     // Quarter the picture until few facets are left in a square, and compare those with each other.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <tuple>
 
 #include "04_conservative_voxelization/conservative_voxelizer.hpp"
 #include "app/statistics.hpp"
