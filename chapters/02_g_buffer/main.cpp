@@ -32,7 +32,8 @@ ProgramInfo program_info(Params& params)
     for (const std::vector<View>& views : {surface_views(), attachment_views()})
         info.views.insert(info.views.end(), views.begin(), views.end());
     add_parameters(info.parameters, params.display);
-    info.parameters.add("depth_bits", params.depth_bits, 0, 24, "bits", "read depth as fixed point; 0: as the float it is");
+    info.parameters.add("depth_bits", params.depth_bits, 0, 24, "bits",
+                        "read depth as fixed point; 0: as the float it is");
     return info;
 }
 
@@ -63,8 +64,8 @@ try {
 
         // Surfaces to radiance: every light at every pixel.
         app.pass("direct light", [&] {
-            linear = &direct_lighting.run(g_buffer, scene, app.shows("direct") ? LightingOutput::direct
-                                                                              : LightingOutput::direct_and_emission);
+            linear = &direct_lighting.run(
+                g_buffer, scene, app.shows("direct") ? LightingOutput::direct : LightingOutput::direct_and_emission);
         });
         // end snippet
 
@@ -75,15 +76,17 @@ try {
 
         // Radiance to the display.
         app.pass("tone map", [&] {
-            picture = &tone_map.run(*linear, app.view().encoding, params.display, data_scale(app.view(), scene.bounds()));
+            picture =
+                &tone_map.run(*linear, app.view().encoding, params.display, data_scale(app.view(), scene.bounds()));
         });
         app.show(*linear, *picture);
     });
 
-    for (const auto& part : {scene.resources(), g_buffer.resources(), direct_lighting.resources(), tone_map.resources()})
+    for (const auto& part :
+         {scene.resources(), g_buffer.resources(), direct_lighting.resources(), tone_map.resources()})
         app.statistics().add_resources(part);
-    app.statistics().set_counts({{"triangles", double(scene.triangle_count()), ""},
-                                 {"lights", double(scene.lights().size()), ""}});
+    app.statistics().set_counts(
+        {{"triangles", double(scene.triangle_count()), ""}, {"lights", double(scene.lights().size()), ""}});
     app.statistics().add_needs(surface_needs(app.scene()));
     app.statistics().add_needs({light_need(app.scene())});
     return app.finish();

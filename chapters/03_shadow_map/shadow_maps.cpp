@@ -43,8 +43,8 @@ ViewBox view_box(const glm::dmat4& view_from_scene, const Bounds& bounds)
     return box;
 }
 
-// Depth 1 near, 0 far: GLM's matrices with the two planes exchanged. Floats are fine near 0, where a perspective crowds all
-// that is not near, so that its near plane may be very near.
+// Depth 1 near, 0 far: GLM's matrices with the two planes exchanged. Floats are fine near 0, where a perspective crowds
+// all that is not near, so that its near plane may be very near.
 glm::dmat4 perspective(double tan_half, double near, double far)
 {
     return glm::perspectiveRH_ZO(2.0 * std::atan(tan_half), 1.0, far, near);
@@ -62,8 +62,8 @@ glm::dvec3 transformed(const glm::dmat4& matrix, glm::dvec3 point)
     return glm::dvec3(p) / p.w;
 }
 
-// The map shows no more than the box of the light's shadows, and a little room for the filter. A texel of it must be wide
-// enough for what the floats of positions leave open: a quarter of it, the bias, is then 8 of their steps.
+// The map shows no more than the box of the light's shadows, and a little room for the filter. A texel of it must be
+// wide enough for what the floats of positions leave open: a quarter of it, the bias, is then 8 of their steps.
 glm::dmat4 fit(const glm::dmat4& clip_from_scene, const NdcBox& box, const Bounds& bounds, int map_size)
 {
     const glm::dvec3 center = 0.5 * (box.low + box.high);

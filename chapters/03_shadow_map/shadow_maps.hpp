@@ -20,14 +20,14 @@ struct ShadowMapParams {
 };
 void add_parameters(ParameterTable& table, ShadowMapParams& params);
 
-// Directional and spot lights have one map, fitted to where their shadows fall; point lights (and spots wider than 75 degrees)
-// have six, or one where they are so far outside that it holds the whole scene. Lights that give nothing or throw no shadow
-// have none. Throws std::runtime_error when maps of 64 texels a side take more than 1 GiB together, 65536 of them.
+// Directional and spot lights have one map, fitted to where their shadows fall; point lights (and spots wider than 75
+// degrees) have six, or one where they are so far outside that it holds the whole scene. Lights that give nothing or
+// throw no shadow have none. Throws std::runtime_error when maps of 64 texels a side take more than 1 GiB together,
+// 65536 of them.
 class ShadowMaps {
 public:
     explicit ShadowMaps(gl::Shaders& shaders);
-    // Draws the maps if scene, lights or their size have changed, and says whether it did. Throws std::runtime_error when
-    // the scene's lights need more layers than the driver has.
+    // Draws the maps if scene, lights or their size have changed, and says whether it did.
     bool draw(const GpuScene& scene, const ShadowMapParams& params);
     void forget() { made_from_.forget(); }  // the next call draws whatever has changed, for measuring
     // Changes whenever the maps do, or how they are looked into.
@@ -62,8 +62,8 @@ private:
     gl::Framebuffer framebuffer_;
 };
 
-// The matrices of a light's maps: depth 1 near, 0 far. `bounds` are the scene's. Empty for a light that gives nothing or
-// throws no shadow. Without `triangles` nothing is fitted: the maps hold all that is in `bounds`.
+// The matrices of a light's maps: depth 1 near, 0 far. `bounds` are the scene's. Empty for a light that gives nothing
+// or throws no shadow. Without `triangles` nothing is fitted: the maps hold all that is in `bounds`.
 std::vector<glm::mat4> shadow_matrices(const Light& light, const Bounds& bounds, const std::vector<Triangle>* triangles,
                                        int map_size);
 

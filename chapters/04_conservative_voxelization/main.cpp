@@ -1,7 +1,8 @@
 // 04_conservative_voxelization: triangles become voxels, and none of them slips through the grid.
 //
-// A voxel is occupied when it overlaps a triangle. Looking along the triangle's dominant axis, the rasterizer or a thread
-// finds the columns of the grid that the triangle may touch; an exact test decides for the one to three voxels of each:
+// A voxel is occupied when it overlaps a triangle. Looking along the triangle's dominant axis, the rasterizer or a
+// thread finds the columns of the grid that the triangle may touch; an exact test decides for the one to three voxels
+// of each:
 //
 //     overlap  <=>  no axis a of the 13 separates:  max_i a.p_i < -r(a)  or  min_i a.p_i > r(a),  r(a) = |a|_1 / 2
 //
@@ -24,12 +25,13 @@ try {
     add_parameters(parameters, view_params);
     add_parameters(parameters, display_params);
 
-    App app(argc, argv,
-            {"04_conservative_voxelization",
-             {{"final", Encoding::color, "occupied voxels as cubes (level=, shaded=)"},
-              {"voxels", Encoding::color, "the same"},
-              {"fragments", Encoding::color, "how many triangles share a voxel: 1 dark blue, 2, 4, 8, 16 and more red"}},
-             parameters});
+    App app(
+        argc, argv,
+        {"04_conservative_voxelization",
+         {{"final", Encoding::color, "occupied voxels as cubes (level=, shaded=)"},
+          {"voxels", Encoding::color, "the same"},
+          {"fragments", Encoding::color, "how many triangles share a voxel: 1 dark blue, 2, 4, 8, 16 and more red"}},
+         parameters});
 
     const GpuScene scene(app.scene());
     app.show_meanwhile(first_light(app, scene, display_params));
@@ -72,8 +74,7 @@ try {
                                  {"fragments per occupied voxel", fragments / std::max(occupied, 1.0), ""},
                                  {"most fragments in a voxel", most, ""},
                                  {"triangles without area", double(counted.degenerate), ""}});
-    for (const auto& part : {scene.resources(), voxelizer.resources()})
-        app.statistics().add_resources(part);
+    for (const auto& part : {scene.resources(), voxelizer.resources()}) app.statistics().add_resources(part);
     app.statistics().add_needs({{"materials and lights", false, "occupancy is a question of triangles alone"}});
     return app.finish();
 } catch (const std::exception& error) {

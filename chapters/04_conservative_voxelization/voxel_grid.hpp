@@ -16,8 +16,8 @@ struct VoxelGridParams {
 void add_parameters(ParameterTable& table, VoxelGridParams& params);
 
 // Voxel size v = longest side / (voxels - 1): the outermost surfaces lie in the middle of the outermost voxels, so that
-// a wall on the boundary is held by one layer of voxels, whole; along the other axes about so. Each side is then padded to a multiple of
-// 2^(levels - 1), so that the levels of the pyramid halve exactly; the padding stays empty.
+// a wall on the boundary is held by one layer of voxels, whole; along the other axes about so. Each side is then padded
+// to a multiple of 2^(levels - 1), so that the levels of the pyramid halve exactly; the padding stays empty.
 shared::GridData make_grid(const Bounds& bounds, const VoxelGridParams& params);
 
 // The grid as passes bind it: kGridBlock (shaders/common/voxel_grid.glsl).

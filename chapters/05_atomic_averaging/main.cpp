@@ -1,7 +1,7 @@
 // 05_atomic_averaging: a thousand fragments in one voxel, and one right answer whatever their order.
 //
-// Each face of a voxel keeps 64-bit fixed point sums over its fragments; a fragment is the part of a triangle inside the
-// voxel and weighs as much as its area A:
+// Each face of a voxel keeps 64-bit fixed point sums over its fragments; a fragment is the part of a triangle inside
+// the voxel and weighs as much as its area A:
 //
 //     mean albedo = sum_i A_i rho_i / sum_i A_i      (the same for emission, normal and position)
 //
@@ -34,8 +34,7 @@ try {
     int averaging = int(Averaging::sums);
     bool count_changes = false;
     ParameterTable parameters = parameters_of(grid_params, voxelizer_params, display_params);
-    parameters.add("averaging", averaging,
-                   {"sums", "compare_and_swap", "compare_and_swap_truncating", "racing_store"},
+    parameters.add("averaging", averaging, {"sums", "compare_and_swap", "compare_and_swap_truncating", "racing_store"},
                    "how final and base_color are averaged; all later chapters use the sums");
     parameters.add("count_changes", count_changes, "with --frames: count what differs from the first frame (slow)");
 
@@ -84,9 +83,8 @@ try {
             quantity.packed = naive != nullptr ? &naive->color() : nullptr;
         }
         const gl::Texture* linear = nullptr;
-        app.pass("voxel view", [&] {
-            linear = &face_view.run(grid, voxelizer.occupancy(), faces, quantity, camera, app.size());
-        });
+        app.pass("voxel view",
+                 [&] { linear = &face_view.run(grid, voxelizer.occupancy(), faces, quantity, camera, app.size()); });
         app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params));
     });
 

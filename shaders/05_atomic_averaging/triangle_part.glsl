@@ -5,8 +5,8 @@
 //     area = |sum of integrals of y dx|,  moments: integrals of x y dx and of y^2/2 dx
 // Cutting by the sides x = 0, x = 1, y = 0, y = 1 is then a clamp of x and y along each edge; what runs along a side
 // adds a constant times dx, or nothing. Only the cut by z = 0 and z = 1 needs points. No arrays, no loops, no order of
-// corners. Lower sides belong to the voxel and upper ones do not, so a triangle that lies in the side between two voxels
-// counts in one of them only.
+// corners. Lower sides belong to the voxel and upper ones do not, so a triangle that lies in the side between two
+// voxels counts in one of them only.
 
 struct TrianglePart {
     float area;   // voxel sides squared

@@ -9,10 +9,10 @@ struct VoxelMaterial {
     int sides;       // 1, or 2 when double-sided
 };
 
-// Directional-hemispherical reflectance of the specular lobe, its mean over the cosine: F0 x + F90 y. Polynomials in the
-// roughness through the integrals of chapter 09's table, within 0.003 of x and 0.0005 of y; 20/21 and 1/21 when smooth.
-// A voxel sends light to all sides alike, so of a lobe it keeps the power and not the direction; without it metals would
-// send nothing, and rooms with glossy surfaces would grow darker with every bounce.
+// Directional-hemispherical reflectance of the specular lobe, its mean over the cosine: F0 x + F90 y. Polynomials in
+// the roughness through the integrals of chapter 09's table, within 0.003 of x and 0.0005 of y; 20/21 and 1/21 when
+// smooth. A voxel sends light to all sides alike, so of a lobe it keeps the power and not the direction; without it
+// metals would send nothing, and rooms with glossy surfaces would grow darker with every bounce.
 // snippet: lobe_reflectance
 vec2 lobe_reflectance(float r)
 {

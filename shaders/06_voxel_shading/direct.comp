@@ -43,8 +43,8 @@ float ray_visibility(vec3 position_grid, vec3 normal, vec3 direction, float dist
 #else
     // snippet: soft_ray
     // Villegas 2016, sections 2.2.1.1 and 3.4.1: each voxel hit adds (1 - v) * hit / distance, so that what is near the
-    // receiver makes a hard shadow and what is far away a soft one. His hit / distance has no upper end and can make the
-    // visibility negative; here it ends at 1. A look, not a measurable quantity: there is no light size in it.
+    // receiver makes a hard shadow and what is far away a soft one. His hit / distance has no upper end and can make
+    // the visibility negative; here it ends at 1. A look, not a measurable quantity: there is no light size in it.
     float shadow = 0.0, travelled = 0.0;
     vec3 from = start;
     for (int hits = 0; hits < 8 && shadow < 1.0; ++hits) {

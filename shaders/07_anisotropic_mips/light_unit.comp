@@ -1,7 +1,7 @@
 #version 450 core
-// What the pyramid keeps radiance in units of. Eight bits: the largest that any face gives to it. Floats: the power of two
-// that brings the largest below what their five bits of exponent hold, so that nothing else changes. It is 1 as it begins.
-// FORMAT as in store_light.glsl.
+// What the pyramid keeps radiance in units of. Eight bits: the largest that any face gives to it. Floats: the power of
+// two that brings the largest below what their five bits of exponent hold, so that nothing else changes. It is 1 as it
+// begins. FORMAT as in store_light.glsl.
 #include "common/item_index.glsl"
 #include "common/voxel_structs.glsl"
 #include "common/voxel_counters.glsl"

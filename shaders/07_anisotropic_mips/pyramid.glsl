@@ -3,9 +3,10 @@
 // One atlas, rgba16f, holds the six side by side along x, for every level: texel (face * size.x + x, y, z).
 //   a    A: share of the voxel's cross-section that surfaces facing `face` cover, 0..1
 //   rgb  A L: their mean radiance L, W/(sr m^2), premultiplied with the coverage
-// rgb is kept in units of light_scale: in eight bits the largest radiance, in floats a power of two that brings it below
-// the largest half float, 1 where it is there already. With SPLIT_COVERAGE, where the format has no room for A, an atlas
-// of its own holds it. What surfaces emit may have an atlas of its own too (chapter 11): A Le in rgb, in units of emission_scale.
+// rgb is kept in units of light_scale: in eight bits the largest radiance, in floats a power of two that brings it
+// below the largest half float, 1 where it is there already. With SPLIT_COVERAGE, where the format has no room for A,
+// an atlas of its own holds it. What surfaces emit may have an atlas of its own too (chapter 11): A Le in rgb, in units
+// of emission_scale.
 #include "common/voxel_grid.glsl"
 
 layout(binding = kLightAtlasUnit) uniform sampler3D light_atlas;

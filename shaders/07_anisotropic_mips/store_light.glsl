@@ -13,9 +13,9 @@ layout(r8, binding = 1) writeonly uniform image3D coverage;
 const float kLargestStored = 64512.0;
 #endif
 
-// What imageStore does is left to the driver (OpenGL 4.6, 2.3.4.2); some cut off, and a bias of half a unit a level would
-// add up. So values are rounded to the nearest ones that the format holds, before.
-// The nearest float with 11 - `lost` bits: half floats and the shorter ones have the same five bits of exponent.
+// What imageStore does is left to the driver (OpenGL 4.6, 2.3.4.2); some cut off, and a bias of half a unit a level
+// would add up. So values are rounded to the nearest ones that the format holds, before. The nearest float with 11 -
+// `lost` bits: half floats and the shorter ones have the same five bits of exponent.
 float nearest_short(float v, uint lost)
 {
     uint bits = packHalf2x16(vec2(v, 0.0));

@@ -1,8 +1,8 @@
 // What cones that leap and cones that march have in common: where they start, what they bring.
 // Included after 07_anisotropic_mips/pyramid.glsl.
 
-// What a chapter adds without a copy of this one's files: it defines these before it includes them. The light that surfaces
-// emit, premultiplied with their coverage, where it is stored apart (chapter 11); counters (chapter 14).
+// What a chapter adds without a copy of this one's files: it defines these before it includes them. The light that
+// surfaces emit, premultiplied with their coverage, where it is stored apart (chapter 11); counters (chapter 14).
 #ifndef EMITTED_LIGHT
 #define EMITTED_LIGHT(faces, weight, p, level, t) vec3(0.0)
 #endif
@@ -20,8 +20,8 @@ struct ConeLight {
 
 float occlusion_at(float t) { return 1.0 / (1.0 + ao_falloff * t * grid.origin.w); }
 
-// Cones of a surface start `offset` voxels beyond the middle of the surface's own voxel along the axis that the normal is
-// nearest to.
+// Cones of a surface start `offset` voxels beyond the middle of the surface's own voxel along the axis that the normal
+// is nearest to.
 RayStart start_above(vec3 position_grid, vec3 geometric_normal, float offset)
 {
     vec3 n = abs(geometric_normal);

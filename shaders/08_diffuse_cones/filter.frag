@@ -1,6 +1,6 @@
 #version 450 core
-// Neighbouring points share what they gathered: along rows, then along columns, a tent of 7 that holds each of the 4 sets of
-// a row in equal parts. Only points of the same surface count.
+// Neighbouring points share what they gathered: along rows, then along columns, a tent of 7 that holds each of the 4
+// sets of a row in equal parts. Only points of the same surface count.
 #include "common/g_buffer.glsl"
 #include "08_diffuse_cones/points.glsl"
 

@@ -1,5 +1,5 @@
-// The naive way, for comparison: a cone that marches through the pyramids in steps as long as it is wide, whether there is
-// something or not.
+// The naive way, for comparison: a cone that marches through the pyramids in steps as long as it is wide, whether there
+// is something or not.
 #include "07_anisotropic_mips/pyramid.glsl"
 #include "08_diffuse_cones/walk.glsl"
 #include "08_diffuse_cones/cone_common.glsl"
@@ -7,8 +7,8 @@
 uniform float step_factor;        // step over the diameter of the cone, or over a voxel where the cone is thinner
 uniform int transmittance_model;  // 0: linear, 1: exponential
 
-// What a cone meets in a voxel's length: the three faces that look against the direction, each by |d_a|. a: coverage, rgb:
-// radiance premultiplied with it.
+// What a cone meets in a voxel's length: the three faces that look against the direction, each by |d_a|. a: coverage,
+// rgb: radiance premultiplied with it.
 vec4 sample_level(vec3 position, vec3 direction, int level, float t)
 {
     float voxel = float(1 << level);
@@ -27,8 +27,8 @@ vec4 sample_level(vec3 position, vec3 direction, int level, float t)
 // How much of a cone a step stops that runs through the coverage A (it may exceed 1), `open` of the cone being left.
 // linear: what the filter has spread over neighbouring voxels belongs together. A wall blurred over two voxels covers u
 // here and 1 - u there, 1 in all, and stops the cone wholly (Vicini et al. 2021, section 4).
-// exponential: as in a fog of twice the depth that covers A, tau = -2 ln(1 - A), so that (1 - A)^2 stays open; a blurred wall
-// leaks (u (1 - u))^2, at most 1/16.
+// exponential: as in a fog of twice the depth that covers A, tau = -2 ln(1 - A), so that (1 - A)^2 stays open; a
+// blurred wall leaks (u (1 - u))^2, at most 1/16.
 // snippet: stopped_share
 float stopped_share(float coverage, float open)
 {

@@ -1,5 +1,6 @@
-// The points that gather: one of every gather_scale x gather_scale pixels, what neighbours need to know of it in one texel.
-// xyz: position in grid space, as bits of floats, infinite where nothing was drawn; w: shading normal, octahedral.
+// The points that gather: one of every gather_scale x gather_scale pixels, what neighbours need to know of it in one
+// texel. xyz: position in grid space, as bits of floats, infinite where nothing was drawn; w: shading normal,
+// octahedral.
 #include "common/octahedral.glsl"
 #include "common/voxel_grid.glsl"
 
@@ -25,7 +26,8 @@ bool same_surface(uvec4 point, vec3 position, vec3 geometric_normal, vec3 normal
            dot(octahedral_decode(unpackSnorm2x16(point.w)), normal) > kMinCosine;
 }
 
-// The four points around a pixel, with the weights of those that lie on its surface: bilinear, their sum 1 if there is any.
+// The four points around a pixel, with the weights of those that lie on its surface: bilinear, their sum 1 if there is
+// any.
 struct PointWeights {
     ivec2 place[4];
     float weight[4];

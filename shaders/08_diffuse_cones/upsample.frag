@@ -1,6 +1,6 @@
 #version 450 core
-// From points to pixels: the four points around a pixel, each by its bilinear weight where it lies on the pixel's surface.
-// A pixel that none of them fits gathers for itself.
+// From points to pixels: the four points around a pixel, each by its bilinear weight where it lies on the pixel's
+// surface. A pixel that none of them fits gathers for itself.
 #include "common/g_buffer.glsl"
 #include "08_diffuse_cones/gather.glsl"
 #include "08_diffuse_cones/points.glsl"

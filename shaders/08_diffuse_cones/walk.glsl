@@ -1,8 +1,10 @@
-// Follow a ray through the walk volume: empty space is passed in leaps, and what surfaces cover on the way is summed up.
+// Follow a ray through the walk volume: empty space is passed in leaps, and what surfaces cover on the way is summed
+// up.
 //
-// A cell of the volume is a cube round a corner of eight voxels. Empty: for each octant 3 bits, the largest k for which the
-// cube of 2^k cells that begins here and goes towards the octant is empty. Otherwise bit 31, and for each of the six sides
-// 5 bits of coverage, the mean of the eight voxels: a wall is two layers of one half, and a staircase adds up to one.
+// A cell of the volume is a cube round a corner of eight voxels. Empty: for each octant 3 bits, the largest k for which
+// the cube of 2^k cells that begins here and goes towards the octant is empty. Otherwise bit 31, and for each of the
+// six sides 5 bits of coverage, the mean of the eight voxels: a wall is two layers of one half, and a staircase adds up
+// to one.
 #include "common/voxel_grid.glsl"
 
 layout(binding = kWalkVolumeUnit) uniform usampler3D walk_volume;
@@ -15,10 +17,11 @@ layout(binding = kWalkVolumeUnit) uniform usampler3D walk_volume;
 const float kStopped = 0.9;
 // Coverage of the cell where a ray leaves the bounds from which on there is a wall, half of which lies beyond them.
 const float kClosed = 0.4;
-// Cells of blur above a surface: half a voxel for where in its voxel it lies, one for the mean with its neighbours, one half
-// for the other axes.
+// Cells of blur above a surface: half a voxel for where in its voxel it lies, one for the mean with its neighbours, one
+// half for the other axes.
 const float kBlur = 2.0;
-// Height above a thin sheet up to which its other side is in the blur: one cell by the mean, half a voxel for where it lies.
+// Height above a thin sheet up to which its other side is in the blur: one cell by the mean, half a voxel for where it
+// lies.
 const float kSheetBlur = 1.5;
 // Rays end this far before a side, so that rounding does not carry them over it.
 const float kBeforeSide = 1e-3;
@@ -76,8 +79,8 @@ WalkStep walk_step(WalkRay ray, float t)
 
 vec3 coverage_bits(uint word, ivec3 shifts) { return vec3(uvec3(word) >> uvec3(shifts) & 31u) / kWalkUnits; }
 
-// Coverage per unit of the ray's way in an occupied cell: the three sides that look against it, each by |d_a|, since what
-// oriented surfaces cover goes with their projected area (Jakob et al. 2010, section 3).
+// Coverage per unit of the ray's way in an occupied cell: the three sides that look against it, each by |d_a|, since
+// what oriented surfaces cover goes with their projected area (Jakob et al. 2010, section 3).
 float coverage_met(WalkRay ray, uint word) { return dot(abs(ray.direction), coverage_bits(word, ray.face_shifts)); }
 
 // That of the sides that look along the ray.
@@ -85,10 +88,10 @@ ivec3 leaving_shifts(WalkRay ray) { return 2 * ivec3(0, 10, 20) + 5 - ray.face_s
 float coverage_left(WalkRay ray, uint word) { return dot(abs(ray.direction), coverage_bits(word, leaving_shifts(ray))); }
 
 // The same in the blur of the surface that the ray starts from. A slanted surface shows some of its sides to a ray that
-// leaves it: those across the axes along which the ray goes back (n_a d_a < 0). Exactly, n.d > 0, it shows nothing. How much
-// of it is in the cell is known from its side across the axis b that the normal is nearest to of those along which the ray
-// goes forward: coverage A_b = s |n_b|, so s |n_a| on the others. A thin sheet has a side on its back in the same voxel; it
-// is left out until the ray has risen above its blur.
+// leaves it: those across the axes along which the ray goes back (n_a d_a < 0). Exactly, n.d > 0, it shows nothing. How
+// much of it is in the cell is known from its side across the axis b that the normal is nearest to of those along which
+// the ray goes forward: coverage A_b = s |n_b|, so s |n_a| on the others. A thin sheet has a side on its back in the
+// same voxel; it is left out until the ray has risen above its blur.
 // snippet: coverage_met_above
 float coverage_met_above(WalkRay ray, uint word, RayStart start, float t)
 {
@@ -133,8 +136,9 @@ bool closed_at(WalkRay ray, vec3 origin, float exit)
 }
 
 // Where a ray ends: in the first run of occupied cells in which the coverage that it has met passes `threshold`, at the
-// run's mean distance. With thresholds spread evenly over 0 .. kStopped among the rays of a pixel and its neighbours, what
-// covers a third stops a third of them, or rather 1 / kStopped times as many: linear transmittance of opaque surfaces (Vicini et al. 2021, section 4).
+// run's mean distance. With thresholds spread evenly over 0 .. kStopped among the rays of a pixel and its neighbours,
+// what covers a third stops a third of them, or rather 1 / kStopped times as many: linear transmittance of opaque
+// surfaces (Vicini et al. 2021, section 4).
 struct WalkEnd {
     bool stopped;
     float t;  // voxels
@@ -172,9 +176,9 @@ WalkEnd walk(RayStart start, vec3 direction, float threshold)
     return WalkEnd(closed_at(ray, start.position, exit), exit);
 }
 
-// Share of a ray that surfaces stop on the way to `end`. In a slanted wall the staircase of its voxels leaves some rays a
-// third too little. But what enters a solid leaves it again, at a place of another phase: the larger of both sums is what it
-// covers. The rim of a surface that a ray passes is not entered.
+// Share of a ray that surfaces stop on the way to `end`. In a slanted wall the staircase of its voxels leaves some rays
+// a third too little. But what enters a solid leaves it again, at a place of another phase: the larger of both sums is
+// what it covers. The rim of a surface that a ray passes is not entered.
 // snippet: covered_share
 float covered_share(RayStart start, vec3 direction, float end)
 {

@@ -1,6 +1,6 @@
-// One bit a cell of the walk volume: is anything in the cube of 2^level cells that begins at the cell and goes up from it?
-// Rows of words along x. The rows begin kWalkPadding cells below the volume, where all is empty: a cube that begins there may
-// reach into it. Included after common/voxel_grid.glsl.
+// One bit a cell of the walk volume: is anything in the cube of 2^level cells that begins at the cell and goes up from
+// it? Rows of words along x. The rows begin kWalkPadding cells below the volume, where all is empty: a cube that begins
+// there may reach into it. Included after common/voxel_grid.glsl.
 const int kWalkPadding = 64;  // the side of the largest cube, and a multiple of 32
 const int kWalkLevels = 7;    // cubes of 1, 2, 4, ... 64 cells
 

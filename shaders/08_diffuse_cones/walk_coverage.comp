@@ -1,6 +1,6 @@
 #version 450 core
-// Walk volume, step 4: what surfaces cover in a cell that is not empty, of its six sides: the mean of the eight voxels round
-// its centre, as a linear filter would have it. One thread a cell.
+// Walk volume, step 4: what surfaces cover in a cell that is not empty, of its six sides: the mean of the eight voxels
+// round its centre, as a linear filter would have it. One thread a cell.
 #include "common/voxel_grid.glsl"
 #include "common/item_index.glsl"
 #include "05_atomic_averaging/face_index.glsl"

@@ -1,6 +1,6 @@
 #version 450 core
-// Walk volume, step 3: how far an empty cell lets a ray leap, for each of the eight octants that a ray may go towards; and
-// the list of the cells that are not empty. One thread a word of 32 cells.
+// Walk volume, step 3: how far an empty cell lets a ray leap, for each of the eight octants that a ray may go towards;
+// and the list of the cells that are not empty. One thread a word of 32 cells.
 #include "common/voxel_grid.glsl"
 #include "common/item_index.glsl"
 #include "08_diffuse_cones/walk_bits.glsl"

@@ -1,4 +1,5 @@
-// main() of the programs that trace the lobes: indirect specular light of every pixel, by a few cones that share the GGX lobe.
+// main() of the programs that trace the lobes: indirect specular light of every pixel, by a few cones that share the
+// GGX lobe.
 #include "common/g_buffer.glsl"
 #include "common/brdf.glsl"
 #include "common/frame.glsl"
@@ -25,8 +26,8 @@ float lobe_half_angle(float alpha, float share)
 }
 // end snippet
 
-// A normal visible from v, with probability in proportion to its projected area (Heitz 2018, listing 1), in the frame of
-// the surface (z: normal); `disc` is uniform on the unit disc.
+// A normal visible from v, with probability in proportion to its projected area (Heitz 2018, listing 1), in the frame
+// of the surface (z: normal); `disc` is uniform on the unit disc.
 // snippet: visible_normal
 vec3 visible_normal(vec3 v, float alpha, vec2 disc)
 {
@@ -49,8 +50,8 @@ float smith_lambda(float cos_theta, float alpha)
 
 const float kGoldenAngle = 2.39996323;  // rad
 
-// Mean radiance along a cone: every run of surfaces that it meets by the share that it stops. Few cones share a lobe, so
-// none leaves to chance which of them it sees.
+// Mean radiance along a cone: every run of surfaces that it meets by the share that it stops. Few cones share a lobe,
+// so none leaves to chance which of them it sees.
 // snippet: trace_lobe
 vec3 trace_lobe(RayStart start, vec3 direction, float tan_half)
 {

@@ -1,6 +1,6 @@
 #version 450 core
-// Neighbouring pixels share the light of wide lobes, as they share diffuse cones (chapter 08, share.frag): run twice with
-// windows that lean to opposite sides. The second time the mean light becomes reflected light.
+// Neighbouring pixels share the light of wide lobes, as they share diffuse cones (chapter 08, filter.frag): run twice
+// with windows that lean to opposite sides. The second time the mean light becomes reflected light.
 #include "common/g_buffer.glsl"
 #include "09_specular_cones/specular_surface.glsl"
 

@@ -1,4 +1,5 @@
-// The visibility that chapter 06 found for the faces, between the centres of voxels (after Villegas 2016, section 3.4.1).
+// The visibility that chapter 06 found for the faces, between the centres of voxels (after Villegas 2016, section
+// 3.4.1).
 #include "07_anisotropic_mips/pyramid.glsl"
 
 layout(binding = 16) uniform sampler3D visibility_volume;  // rgb: visible shares of lights 0..2, a: 1 at a face

@@ -25,8 +25,8 @@ float open_share(RayStart start, vec3 direction, float length)
 }
 // end snippet
 
-// Thin cones that together just hold the light, a sphere or the disc of a sun: sin a = radius / distance. They lie on a spiral
-// of equal areas (Vogel 1979) and end where the light begins.
+// Thin cones that together just hold the light, a sphere or the disc of a sun: sin a = radius / distance. They lie on a
+// spiral of equal areas (Vogel 1979) and end where the light begins.
 float cone_visibility(vec3 position, vec3 normal, LightSample light)
 {
     bool directional = light.distance >= kInfiniteDistance;

@@ -1,6 +1,6 @@
 #version 450 core
-// What cones have gathered and what emitters send: their exact light times the share that arrives at the points around the
-// pixel that lie on its surface. A pixel that no point fits aims its own rays.
+// What cones have gathered and what emitters send: their exact light times the share that arrives at the points around
+// the pixel that lie on its surface. A pixel that no point fits aims its own rays.
 #include "common/g_buffer.glsl"
 #include "07_anisotropic_mips/pyramid.glsl"
 #include "08_diffuse_cones/walk.glsl"

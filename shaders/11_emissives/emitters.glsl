@@ -17,8 +17,8 @@ const float kLeastHeight = 1e-3;
 
 // --- What would arrive if nothing were in the way ---
 
-// The vector form factor of an edge seen from the origin (Lambert 1760; Baum et al. 1989, eq. 2): the angle between its ends
-// along the normal of the plane through them. Any length of the ends will do.
+// The vector form factor of an edge seen from the origin (Lambert 1760; Baum et al. 1989, eq. 2): the angle between its
+// ends along the normal of the plane through them. Any length of the ends will do.
 float edge_form_factor(vec3 a, vec3 b, vec3 n)
 {
     vec3 normal = cross(a, b);
@@ -26,8 +26,8 @@ float edge_form_factor(vec3 a, vec3 b, vec3 n)
     return sine > 1e-12 ? atan(sine, cosine) * dot(normal, n) / sine : 0.0;
 }
 
-// Form factor of a point with the normal n to a triangle, relative to the point, whose front winds counter-clockwise; only
-// what is above the horizon counts. E = pi L F.
+// Form factor of a point with the normal n to a triangle, relative to the point, whose front winds counter-clockwise;
+// only what is above the horizon counts. E = pi L F.
 // snippet: triangle_form_factor
 float triangle_form_factor(vec3 a, vec3 b, vec3 c, vec3 n)
 {
@@ -117,7 +117,8 @@ EmitterSamples sample_emitters(RayStart start, vec3 position, vec3 geometric_nor
 }
 // end snippet
 
-// Shadows by a ratio of what neighbours have sampled keep the exact light where nothing is in the way (Heitz et al. 2018).
+// Shadows by a ratio of what neighbours have sampled keep the exact light where nothing is in the way (Heitz et al.
+// 2018).
 vec3 arriving_share(vec3 arriving, vec3 unshadowed)
 {
     return mix(clamp(arriving / max(unshadowed, vec3(1e-30)), 0.0, 1.0), vec3(1.0), lessThanEqual(unshadowed, vec3(0.0)));

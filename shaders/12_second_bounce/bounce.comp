@@ -1,7 +1,7 @@
 #version 450 core
-// One bounce from voxel to voxel: every face reflects the mean of what the faces at the ends of its links reflect, and what
-// emitters and the sky send. One thread a face.
-// EMITTERS 1: some surface shines. FIRST, LAST 1: the first bounce of a run, the last one.
+// One bounce from voxel to voxel: every face reflects the mean of what the faces at the ends of its links reflect, and
+// what emitters and the sky send. One thread a face. EMITTERS 1: some surface shines. FIRST, LAST 1: the first bounce
+// of a run, the last one.
 #include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 #include "12_second_bounce/links.glsl"
@@ -29,8 +29,8 @@ vec3 radiance_before(uint place) { return unpack_radiance(before[place]); }
 #if MEASURE
 shared float group_change[64], group_radiance[64];
 
-// The largest of the work group first: one atomic for all its faces. Floats that are not negative have the order of their
-// bits.
+// The largest of the work group first: one atomic for all its faces. Floats that are not negative have the order of
+// their bits.
 void measure(vec3 change, vec3 radiance)
 {
     uint i = gl_LocalInvocationIndex;

@@ -1,7 +1,7 @@
 // Included after 11_emissives/emitters.glsl.
 
-// Whether an emitter lies right above a face, within its blur: what the emitter sends there is not seen from anywhere else,
-// and the voxels cannot tell the two apart.
+// Whether an emitter lies right above a face, within its blur: what the emitter sends there is not seen from anywhere
+// else, and the voxels cannot tell the two apart.
 bool hidden_by_emitter(vec3 position, vec3 normal)
 {
     const float kLeast = 0.02;  // voxels: the emitter's own face

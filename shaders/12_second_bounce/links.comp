@@ -1,6 +1,6 @@
 #version 450 core
-// Where the light of every face comes from: its rays are walked once, and each keeps the face that it ends on. One thread a
-// face. What emitters send to the face does not depend on the light either, so it is gathered here too.
+// Where the light of every face comes from: its rays are walked once, and each keeps the face that it ends on. One
+// thread a face. What emitters send to the face does not depend on the light either, so it is gathered here too.
 // EMITTERS 0: no surface shines; 1: emission is apart; 2: rays meet it as they meet what is reflected.
 #include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"

@@ -1,6 +1,6 @@
 #version 450 core
-// What one look-up costs: rays through a cube of texels, as cones go. A pixel begins at its place on the cube's near side and
-// goes in one of 16 directions, which neighbours in a window of 4 x 4 divide among them.
+// What one look-up costs: rays through a cube of texels, as cones go. A pixel begins at its place on the cube's near
+// side and goes in one of 16 directions, which neighbours in a window of 4 x 4 divide among them.
 uniform int look_ups;  // of every pixel
 uniform vec2 inverse_size;
 #if TRILINEAR

@@ -1,5 +1,5 @@
-// Numbers of storage buffers and uniform blocks, as C++ binds them and GLSL declares them. Texture units stand with what
-// is bound to them (scene_structs.glsl, voxel_structs.glsl, shadow_structs.glsl).
+// Numbers of storage buffers and uniform blocks, as C++ binds them and GLSL declares them. Texture units stand with
+// what is bound to them (scene_structs.glsl, voxel_structs.glsl, shadow_structs.glsl).
 #ifdef __cplusplus
 #pragma once
 #endif

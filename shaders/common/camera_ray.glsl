@@ -6,8 +6,8 @@ struct Ray {
     vec3 direction;  // unit
 };
 
-// Through two points next to the scene: from an eye 100 km away the ray would wander by centimetres. It begins in front of
-// the near plane where the camera's own lets it, because voxels are thicker than the surfaces in them.
+// Through two points next to the scene: from an eye 100 km away the ray would wander by centimetres. It begins in front
+// of the near plane where the camera's own lets it, because voxels are thicker than the surfaces in them.
 Ray camera_ray(vec2 pixel_center)
 {
     vec2 ndc = 2.0 * pixel_center * camera.size.zw - 1.0;

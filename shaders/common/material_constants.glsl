@@ -14,8 +14,8 @@ const float kMinRoughness = 0.03;
 // away from the eye, where the visibility term is not defined.
 const float kMinNdotV = 1.0e-4;
 
-// m. The distance to a punctual light is clamped from below, so that E = I cos / d^2 stays finite at the light: for I up
-// to 1e8 W/sr a float holds it. That is all it is for: a scene of a micrometre is lit as one of a metre.
+// m. The distance to a punctual light is clamped from below, so that E = I cos / d^2 stays finite at the light: for I
+// up to 1e8 W/sr a float holds it. That is all it is for: a scene of a micrometre is lit as one of a metre.
 const float kMinLightDistance = 1.0e-15;
 
 // Reflectance at normal incidence of a dielectric with index of refraction 1.5: ((1.5 - 1) / (1.5 + 1))^2.

@@ -45,8 +45,9 @@ struct EmitterPart {
     vec4 intensity;  // rgb: radiance times area, W/(sr m^2) x voxel sides squared
 };
 
-// Height above an emitter, in voxels, in which its own blur and that of what it hangs on would hide it: there rays against
-// the triangles themselves have been asked, in bands of equal solid angle from the horizon up, each in so many sectors.
+// Height above an emitter, in voxels, in which its own blur and that of what it hangs on would hide it: there rays
+// against the triangles themselves have been asked, in bands of equal solid angle from the horizon up, each in so many
+// sectors.
 CONEBOOK_CONSTANT float kEmitterBlur = 1.5;
 CONEBOOK_CONSTANT int kMaskBands = 4;
 CONEBOOK_CONSTANT int kMaskSectors = 8;
