@@ -11,7 +11,7 @@ uniform float step_factor;  // step over the spacing of the samples
 float coverage_at(int face, vec3 voxel_middle, int level)
 {
     TreeCell cell = descend(voxel_middle, tree_depth - 1);
-    return cell.node == kNoNode ? 0.0 : clamp(4.0 * sample_brick(cell, face, voxel_middle).a - 1.0, 0.0, 1.0);
+    return cell.node == kNoNode ? 0.0 : min(2.0 * sample_brick(cell, face, voxel_middle).a, 1.0);
 }
 #include "08_diffuse_cones/cone_common.glsl"
 

@@ -20,7 +20,8 @@ def tree():
         full |= {(x, y) for y in range(int(low), int(high) + 1)}
     border = {(x + i, y + j) for x, y in full for i in (-1, 0, 1) for j in (-1, 0, 1)} - full
     border = {(x, y) for x, y in border if 0 <= x < 8 and 0 <= y < 8}
-    parents = {(x // 2, y // 2) for x, y in full | border}
+    parents = {(x // 2 + i, y // 2 + j) for x, y in full for i in (-1, 0, 1) for j in (-1, 0, 1)}
+    parents = {(x, y) for x, y in parents if 0 <= x < 4 and 0 <= y < 4}
     d.box((0, 0), (8, 8), INK, "none", 2)
     for x, y in sorted(parents):
         d.box((2 * x, 2 * y), (2 * x + 2, 2 * y + 2), INK, "none", 1.6)
@@ -29,14 +30,14 @@ def tree():
     for x, y in sorted(full):
         d.box((x, y), (x + side, y + side), BLUE, PALE[BLUE], 1.4)
     d.path([(x, height[x]) for x in range(9)], RED, 3)
-    d.label((3.2, 6.7), "missing: exactly empty,\na cone passes it in one step", GREY, size=14)
+    d.label((4.0, 7.0), "missing: exactly empty,\na cone passes it in one step", GREY, size=14)
     d.label((8.3, 1.3), "the surface", RED, "start")
     d.box((8.5, 7.1), (9.1, 7.7), BLUE, PALE[BLUE], 1.4)
     d.label((9.4, 7.4), "leaf with geometry: one of its\n2 x 2 voxels meets the surface", INK, "start", size=14)
     d.box((8.5, 5.7), (9.1, 6.3), GREEN, PALE[GREEN], 1)
     d.label((9.4, 6.0), "border node: empty neighbour,\nside, edge or corner", INK, "start", size=14)
     d.box((8.5, 4.3), (9.1, 4.9), INK, "none", 1.6)
-    d.label((9.4, 4.6), "parent, with at most 2 x 2 children", INK, "start", size=14)
+    d.label((9.4, 4.6), "their parents, and border nodes of theirs", INK, "start", size=14)
     d.label((4.0, -0.4), "in three dimensions: 8 children, 26 neighbours", INK, place="below", size=14)
     return d
 
@@ -67,7 +68,7 @@ def brick():
 def kernels():
     """Across: a quarter, a half, a quarter; along: a half, one, a half, the front one first."""
     d = Drawing("A new sample across the direction is the mean (1/4, 1/2, 1/4) of old ones, along it their sum (1/2, 1, 1/2), front first",
-                -0.8, -1.9, 14.6, 4.4)
+                -0.8, -1.5, 14.6, 4.0)
     for x0, weights, color, name in ((0, ("1/4", "1/2", "1/4"), BLUE, "across: a mean"), (8, ("1/2", "1", "1/2"), ORANGE, "along: a sum, front first")):
         for i in range(5):
             d.dot((x0 + 1.4 * i, 0.6), GREY, 4)
@@ -87,7 +88,7 @@ def kernels():
 def descent():
     """A cone, and the nodes that it samples: small ones near its start, large ones far away."""
     d = Drawing("A cone samples nodes whose samples are as far apart as the cone is wide, and jumps over what is missing",
-                -0.5, -1.0, 15.4, 5.6, 46)
+                -0.5, 0.2, 15.4, 6.3, 46)
     d.polygon([(0, 2), (15, 4.6), (15, 2.2)], PALE[ORANGE], PALE[ORANGE], 1)
     slope = 1.4 / 15
     for x, side in ((0.5, 0.5), (1.0, 0.5), (6.0, 1.5), (12.0, 3.0)):
@@ -99,8 +100,8 @@ def descent():
     for a, b in ((1.5, 6.0), (7.5, 12.0)):
         d.arrow((a, 2 + slope * a), (b, 2 + slope * b), RED, 2.2)
     d.label((3.6, 3.3), "missing: to the cell's exit", RED, size=14)
-    d.label((9.6, 1.9), "missing", RED, size=14)
-    d.label((13.5, -0.1), "coarse bricks", BLUE, place="below", size=14)
+    d.label((9.6, 3.5), "missing", RED, size=14)
+    d.label((13.5, 6.1), "coarse bricks", BLUE, place="below", size=14)
     d.label((1.0, 1.1), "leaves", BLUE, place="below", size=14)
     d.dot((0, 2), INK, 5)
     return d
