@@ -95,10 +95,10 @@ void ConeVolumes::bind() const
     walk.bind();
 }
 
-DiffuseCones::DiffuseCones(gl::Shaders& shaders)
+DiffuseCones::DiffuseCones(gl::Shaders& shaders, const std::string& folder)
     : points_(shaders),
-      gather_(shaders, {"common/fullscreen.vert", "08_diffuse_cones/gather.frag"}),
-      upsample_(shaders, {"common/fullscreen.vert", "08_diffuse_cones/upsample.frag"}),
+      gather_(shaders, {"common/fullscreen.vert", folder + "/gather.frag"}),
+      upsample_(shaders, {"common/fullscreen.vert", folder + "/upsample.frag"}),
       filter_(shaders)
 {
 }
@@ -107,14 +107,23 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes&
                                      const ConeDirections& directions, const ConeParams& cones,
                                      const DiffuseConeParams& params, int sample)
 {
+    const auto bind = [&](const gl::Program&) { volumes.bind(); };
+    return run(g_buffer, volumes.grid, bind, cone_defines(cones, volumes.pyramid), directions, cones, params, sample);
+}
+
+const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const VoxelGrid& grid,
+                                     const std::function<void(const gl::Program&)>& bind, const gl::Defines& defines,
+                                     const ConeDirections& directions, const ConeParams& cones,
+                                     const DiffuseConeParams& params, int sample)
+{
     const bool share = directions.sets() > 1;
     // Where the points are that gather.
-    points_.run(g_buffer, volumes.grid, share ? params.gather_scale : 1, sample);
+    points_.run(g_buffer, grid, share ? params.gather_scale : 1, sample);
 
     // Every point gathers by its own set of cones.
     gl::fit_to_pixels(gathered_, gathered_framebuffer_, "gathered light", GL_RGBA32F, points_.size());
-    volumes.bind();
-    const gl::Program& gather = gather_.with(cone_defines(cones, volumes.pyramid));
+    const gl::Program& gather = gather_.with(defines);
+    bind(gather);
     points_.bind(gather);
     directions.bind(gather, cones);
     gl::draw_pixels(gather, gathered_framebuffer_, no_vertices_, points_.size());
@@ -125,7 +134,8 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes&
 
     // Pixels take from the points around them.
     gl::fit_to_pixels(light_, light_framebuffer_, "indirect diffuse light", GL_RGBA32F, g_buffer.size());
-    const gl::Program& upsample = upsample_.with(cone_defines(cones, volumes.pyramid));
+    const gl::Program& upsample = upsample_.with(defines);
+    bind(upsample);
     points_.bind(upsample);
     directions.bind(upsample, cones);
     filtered.bind(17);

@@ -1,12 +1,14 @@
 // Indirect diffuse light and ambient occlusion: many narrow cones, shared among neighbouring pixels.
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "02_g_buffer/g_buffer.hpp"
 #include "07_anisotropic_mips/light_pyramid.hpp"
 #include "08_diffuse_cones/cone_sets.hpp"
 #include "08_diffuse_cones/gather_points.hpp"
 #include "08_diffuse_cones/walk_volume.hpp"
-
 
 namespace conebook {
 
@@ -91,11 +93,17 @@ struct ConeVolumes {
 
 class DiffuseCones {
 public:
-    explicit DiffuseCones(gl::Shaders& shaders);
+    // `folder` below shaders/ holds gather.frag and upsample.frag; later chapters have their own.
+    explicit DiffuseCones(gl::Shaders& shaders, const std::string& folder = "08_diffuse_cones");
 
     // RGBA32F of the g-buffer's size: rgb E / pi in W/(sr m^2), a: ambient visibility 0..1. `sample`: as in ConeDirections.
     const gl::Texture& run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeDirections& directions,
                            const ConeParams& cones, const DiffuseConeParams& params, int sample = 0);
+    // The same through whatever the folder's programs read: `bind` binds it and sets its uniforms.
+    const gl::Texture& run(const GBuffer& g_buffer, const VoxelGrid& grid,
+                           const std::function<void(const gl::Program&)>& bind, const gl::Defines& defines,
+                           const ConeDirections& directions, const ConeParams& cones, const DiffuseConeParams& params,
+                           int sample = 0);
     const GatherPoints& points() const { return points_; }  // of the last run
     std::vector<gl::Resource> resources() const;
 
