@@ -52,7 +52,7 @@ try {
 
     app.each_frame([&] {
         // What the lights see.
-        if (tree_params.update == int(Update::always)) shadow_maps.forget();
+        if (tree_params.update == Update::always) shadow_maps.forget();
         app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, tree_params.shadow_maps); });
 
         // Triangles -> voxels -> octree -> direct light -> bricks, and bounces through them.

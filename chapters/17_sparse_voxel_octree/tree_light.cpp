@@ -54,7 +54,7 @@ void TreeLight::bind(const gl::Program& program) const
 void TreeLight::run(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps, const ConeParams& cones)
 {
     grid_.fit(scene.bounds(), params_.grid);
-    if (params_.update == int(Update::always)) voxelizer_.forget();
+    if (params_.update == Update::always) voxelizer_.forget();
     // Triangles -> occupied voxels -> mean material of their faces.
     app.pass("voxelize", Scope::scene, [&] { return voxelizer_.run(scene, grid_, params_.voxelizer); });
     app.pass("average", Scope::scene, [&] { return faces_.run(scene, grid_, voxelizer_); });
@@ -77,7 +77,7 @@ bool TreeLight::bounce(const ConeParams& cones)
     // Of the cones' parameters the pixels alone have some; a face has links of them.
     ConeParams of_faces = cones;
     of_faces.cones = params_.links;
-    of_faces.interleave = int(Interleave::on);
+    of_faces.interleave = Interleave::on;
     if (!bounced_from_.differs(tree_.revision(), shading_.revision(), params_.bricks, params_.bounces, params_.tolerance,
                                params_.links, of_faces))
         return false;

@@ -20,7 +20,7 @@ struct TreeLightParams {
     float tolerance = 1e-3f;
     // Cones of every face, for the bounces from voxel to voxel: 1, 5, 9 or 16.
     int links = 5;
-    int update = int(Update::on_change);
+    Update update = Update::on_change;
 };
 void add_parameters(ParameterTable& table, TreeLightParams& params);
 

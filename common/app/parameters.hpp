@@ -33,9 +33,9 @@ public:
     void add(const std::string& name, int& field, int min, int max, const std::string& unit, const std::string& help);
     void add_values(const std::string& name, int& field, std::vector<int> values, const std::string& help);  // one of them
     void add(const std::string& name, bool& field, const std::string& help);
-    // An enumeration whose values are 0, 1, 2, ... by the names in `choices`.
+    // An enumeration, or an integer, whose values are 0, 1, 2, ... by the names in `choices`.
     template <typename Enum>
-        requires std::is_enum_v<Enum>
+        requires(std::is_enum_v<Enum> || std::is_same_v<Enum, int>)
     void add(const std::string& name, Enum& field, std::vector<std::string> choices, const std::string& help)
     {
         add_choice(
