@@ -180,8 +180,8 @@ TEST(MovingAssets, BallMorphs)
     }
 }
 
-// After a quarter of 2 s the left leg has swung 30 degrees back about the hip and its knee is at 13.5 degrees; what hangs on
-// the lower joint alone goes with it, and nowhere is the skin torn.
+// After a quarter of 2 s the left leg has swung 30 degrees back about the hip and its knee is at 13.5 degrees; what hangs
+// on the lower joint alone goes with it, and nowhere is the skin torn.
 TEST(MovingAssets, SkinFollowsItsJoints)
 {
     const Scene scene = asset("figure");

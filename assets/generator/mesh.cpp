@@ -10,7 +10,10 @@ namespace {
 
 constexpr double two_pi = glm::two_pi<double>();
 
-glm::vec3 snapped(const glm::dvec3& v) { return {generator::snapped(v.x), generator::snapped(v.y), generator::snapped(v.z)}; }
+glm::vec3 snapped(const glm::dvec3& v) {
+    using generator::snapped;
+    return {snapped(v.x), snapped(v.y), snapped(v.z)};
+}
 
 // Grid of (columns + 1) x (rows + 1) vertices, row by row, that starts at `first`; two triangles per cell with the
 // front towards (column direction) x (row direction).

@@ -12,9 +12,11 @@ namespace {
 constexpr double pi = glm::pi<double>();
 
 // A closed tube around the line from `a` down to `b` (m), rounded at both ends, as a body of revolution whose profile is
-// |s|^4 + r^4 = 1: full, and without an edge. `weight(share of the way)` gives the weight of joint `second`, the rest is `first`'s.
+// |s|^4 + r^4 = 1: full, and without an edge. `weight(share of the way)` gives the weight of joint `second`, the rest is
+// `first`'s.
 template <class Weight>
-void add_limb(Mesh& mesh, glm::dvec3 a, glm::dvec3 b, double radius, int first, int second, Weight weight) {
+void add_limb(Mesh& mesh, glm::dvec3 a, glm::dvec3 b, double radius, int first, int second, Weight weight)
+{
     constexpr int segments = 16, rings = 16;
     const glm::dvec3 axis = 0.5 * (b - a), middle = 0.5 * (a + b), down = glm::normalize(axis);
     const glm::dvec3 side = glm::normalize(glm::cross(down, glm::dvec3(0.0, 0.0, 1.0))), front = glm::cross(side, down);
@@ -38,7 +40,8 @@ void add_limb(Mesh& mesh, glm::dvec3 a, glm::dvec3 b, double radius, int first, 
     }
     for (int ring = 0; ring < rings; ++ring) {
         for (int segment = 0; segment < segments; ++segment) {
-            const auto i = start + static_cast<std::uint32_t>(ring * (segments + 1) + segment), below = i + segments + 1;
+            const auto i = start + static_cast<std::uint32_t>(ring * (segments + 1) + segment),
+                       below = i + segments + 1;
             mesh.triangle(i, below, below + 1);
             mesh.triangle(i, below + 1, i + 1);
         }
@@ -46,7 +49,8 @@ void add_limb(Mesh& mesh, glm::dvec3 a, glm::dvec3 b, double radius, int first, 
 }
 
 // From 0 to 1 around the middle of the way: where elbow and knee are.
-double bend(double way) {
+double bend(double way)
+{
     const double t = glm::clamp((way - 0.35) / 0.3, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
@@ -54,7 +58,8 @@ double bend(double way) {
 std::vector<double> row(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 
 // Turns about the x axis by these degrees, one after the other in `period_s`, and as at first at the end.
-Track swing(int object, std::vector<double> degrees, double period_s) {
+Track swing(int object, std::vector<double> degrees, double period_s)
+{
     Track track{object, Path::rotation, Interpolation::linear, {}, {}};
     degrees.push_back(degrees[0]);
     for (std::size_t i = 0; i < degrees.size(); ++i) {
@@ -66,7 +71,8 @@ Track swing(int object, std::vector<double> degrees, double period_s) {
 
 }  // namespace
 
-Asset figure() {
+Asset figure()
+{
     Asset asset;
     asset.name = "figure";
     Mesh white, red, blue;
@@ -107,15 +113,17 @@ Asset figure() {
         add_limb(body, stand + limb.from, stand + limb.to, limb.radius, first, first + 1, bend);
         const double s = limb.swing_degrees, b = limb.bend_degrees;
         asset.tracks.push_back(swing(upper, {0.0, s, 0.0, -s}, period_s));
-        asset.tracks.push_back(swing(lower, {0.2 * b, 0.3 * b, s < 0.0 ? b : 0.2 * b, s < 0.0 ? 0.2 * b : b}, period_s));
+        asset.tracks.push_back(
+            swing(lower, {0.2 * b, 0.3 * b, s < 0.0 ? b : 0.2 * b, s < 0.0 ? 0.2 * b : b}, period_s));
     }
     asset.add("figure", body, lambert("figure", {0.75, 0.5, 0.2}));
     asset.objects.back().skinned = true;
-    asset.tracks.push_back({hips,
-                            Path::translation,
-                            Interpolation::linear,
-                            {0.0, 0.25 * period_s, 0.5 * period_s, 0.75 * period_s, period_s},
-                            {{stand_x, 0.9, 0.0}, {stand_x, 0.94, 0.0}, {stand_x, 0.9, 0.0}, {stand_x, 0.94, 0.0}, {stand_x, 0.9, 0.0}}});
+    asset.tracks.push_back(
+        {hips,
+         Path::translation,
+         Interpolation::linear,
+         {0.0, 0.25 * period_s, 0.5 * period_s, 0.75 * period_s, period_s},
+         {{stand_x, 0.9, 0.0}, {stand_x, 0.94, 0.0}, {stand_x, 0.9, 0.0}, {stand_x, 0.94, 0.0}, {stand_x, 0.9, 0.0}}});
 
     // A ball that becomes flat and wide and again a ball: weight 0 to 1.
     Mesh ball, flat;

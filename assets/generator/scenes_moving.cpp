@@ -18,7 +18,8 @@ glm::dquat turned(double degrees, const glm::dvec3& axis) { return glm::angleAxi
 const glm::dvec3 x_axis(1.0, 0.0, 0.0), y_axis(0.0, 1.0, 0.0), z_axis(0.0, 0.0, 1.0);
 
 // Curve through key after key that rests at each of them.
-Track resting_at(int object, const std::vector<double>& times_s, const std::vector<glm::dquat>& rotations) {
+Track resting_at(int object, const std::vector<double>& times_s, const std::vector<glm::dquat>& rotations)
+{
     Track track{object, Path::rotation, Interpolation::cubic_spline, times_s, {}};
     for (const glm::dquat& rotation : rotations) {
         const std::vector<double> still(4, 0.0);
@@ -28,7 +29,8 @@ Track resting_at(int object, const std::vector<double>& times_s, const std::vect
 }
 
 // Turns about an axis in equal parts, `steps` to the whole turn, one after the other in `period_s`.
-Track spin(int object, const glm::dvec3& axis, int steps, double period_s, Interpolation interpolation) {
+Track spin(int object, const glm::dvec3& axis, int steps, double period_s, Interpolation interpolation)
+{
     Track track{object, Path::rotation, interpolation, {}, {}};
     for (int i = 0; i <= steps; ++i) {
         track.times_s.push_back(period_s * i / steps);
@@ -37,7 +39,8 @@ Track spin(int object, const glm::dvec3& axis, int steps, double period_s, Inter
     return track;
 }
 
-Light point_light(const glm::dvec3& position, double intensity) {
+Light point_light(const glm::dvec3& position, double intensity)
+{
     Light light;
     light.name = "point";
     light.position = position;
@@ -45,7 +48,8 @@ Light point_light(const glm::dvec3& position, double intensity) {
     return light;
 }
 
-Camera camera_at(const char* name, const glm::dvec3& eye, const glm::dvec3& target, double y_fov_degrees) {
+Camera camera_at(const char* name, const glm::dvec3& eye, const glm::dvec3& target, double y_fov_degrees)
+{
     Camera camera;
     camera.name = name;
     camera.eye = eye;
@@ -55,7 +59,8 @@ Camera camera_at(const char* name, const glm::dvec3& eye, const glm::dvec3& targ
 }
 
 // Puts an object somewhere else, which carries it from now on.
-void attach(Asset& asset, int object, int parent, const glm::dvec3& translation) {
+void attach(Asset& asset, int object, int parent, const glm::dvec3& translation)
+{
     Object& o = asset.objects.at(static_cast<std::size_t>(object));
     o.parent = parent;
     o.translation = translation;
@@ -63,10 +68,12 @@ void attach(Asset& asset, int object, int parent, const glm::dvec3& translation)
 
 }  // namespace
 
-Asset door() {
+Asset door()
+{
     Asset asset;
     asset.name = "door";
-    const double half = 0.0625, side = 0.4, top = 1.6;  // of the wall's thickness, of the doorway's width; its height, m
+    const double half = 0.0625, side = 0.4,
+                 top = 1.6;  // of the wall's thickness, of the doorway's width; its height, m
     Mesh room, wall;
     add_room(room, {-2.0, 0.0, -1.0}, {2.0, 2.0, 1.0});
     for (const double facing : {-1.0, 1.0}) {
@@ -99,7 +106,8 @@ Asset door() {
     return asset;
 }
 
-Asset walking_lamp() {
+Asset walking_lamp()
+{
     Asset asset;
     asset.name = "walking_lamp";
     Mesh room, columns;
@@ -115,8 +123,8 @@ Asset walking_lamp() {
     }
     asset.add("columns", columns, lambert("columns", {0.7, 0.65, 0.55}));
 
-    // Round the columns in 8 s. A key every second, the curve through them Catmull and Rom's (1974): the tangent at a key is
-    // half the way from the one before it to the one after it, by their distance in time.
+    // Round the columns in 8 s. A key every second, the curve through them Catmull and Rom's (1974): the tangent at a key
+    // is half the way from the one before it to the one after it, by their distance in time.
     constexpr int keys = 8;
     const auto place = [](int i) {
         const double angle = glm::two_pi<double>() * i / keys;
@@ -172,7 +180,8 @@ Asset walking_lamp() {
     return asset;
 }
 
-Asset spinning_shapes() {
+Asset spinning_shapes()
+{
     Asset asset = colonnade();
     asset.name = "spinning_shapes";
     constexpr double period_s = 4.0;
@@ -225,7 +234,8 @@ Asset spinning_shapes() {
         Mesh seat;
         add_box(seat, {{0.0, -0.15, 0.0}, 0.0}, {0.2, 0.3, 0.3});
         const std::string name = "seat_" + std::to_string(i);
-        const int object = asset.add(name, seat, lambert(name, {i == 0 ? 0.7 : 0.15, i == 1 ? 0.7 : 0.15, i == 2 ? 0.7 : 0.15}));
+        const int object =
+            asset.add(name, seat, lambert(name, {i == 0 ? 0.7 : 0.15, i == 1 ? 0.7 : 0.15, i == 2 ? 0.7 : 0.15}));
         const double angle = glm::two_pi<double>() * i / 3.0;
         attach(asset, object, carousel, 0.6 * glm::dvec3(std::sin(angle), 0.0, std::cos(angle)));
         asset.objects.back().rotation = glm::angleAxis(angle, y_axis);
