@@ -10,6 +10,7 @@
 
 #include "01_first_light/first_light.hpp"
 #include "12_second_bounce/camera_light.hpp"
+#include "15_dynamic_scenes/changes.hpp"
 #include "15_dynamic_scenes/dynamic_voxels.hpp"
 #include "15_dynamic_scenes/moving_scene.hpp"
 
@@ -40,12 +41,15 @@ private:
 int main(int argc, char** argv)
 try {
     SceneLightParams scene_params;
+    scene_params.bounces.warm_start = true;
     CameraLightParams camera_params;
     MotionParams motion_params;
     DynamicVoxelParams dynamic_params;
+    ChangeParams change_params;
     DisplayParams display_params;
-    ParameterTable parameters =
-        parameters_of(scene_params, camera_params, motion_params, dynamic_params, display_params);
+    ParameterTable parameters = parameters_of(scene_params, camera_params, motion_params, dynamic_params, change_params,
+                                              display_params);
+    add_warm_start(parameters, scene_params.bounces);
 
     App app(argc, argv, {"15_dynamic_scenes", light_views(), parameters, hold_all_poses});
     const bool in_window = !app.options().headless;
@@ -69,8 +73,9 @@ try {
             clock.advance(motion_params.time, moving.duration_s());
             app.expect_more();
         }
-        app.pass("pose", Scope::scene, [&] { return moving.run(scene, double(motion_params.time)); });
         app.follow(moving.cameras());
+        make_change(change_params, app, scene, motion_params, camera_params);
+        app.pass("pose", Scope::scene, [&] { return moving.run(scene, double(motion_params.time)); });
 
         // Which passes this takes.
         const LightPlan plan = make_plan();
@@ -79,6 +84,8 @@ try {
         scene_light.run(app, scene, camera_params.cones, plan, [&] {
             dynamic_voxels.run(app, app.scene(), scene, scene_light.voxels(), dynamic_params);
         });
+
+        if (!scene_light.bounces().is_settled()) app.expect_more();
 
         // What the camera sees, what other surfaces send to it, and the sum.
         camera_light.see(app, scene);
