@@ -32,9 +32,10 @@ auto of_preset(const std::filesystem::path& preset, Work work)
     }
 }
 
-Scene scene_of(const Options& options)
+Scene scene_of(const Options& options, const ProgramInfo& info)
 {
     Scene scene = load_scene(options.scene);
+    if (info.prepare) info.prepare(scene);
     of_preset(options.preset, [&] { place_lights(scene, options.lights); });
     return scene;
 }
@@ -59,7 +60,7 @@ void flip_rows(std::vector<T>& texels, int width, int height)
 App::App(int argc, char** argv, ProgramInfo info)
     : info_(std::move(info)),
       options_(parse_options(argc, argv, info_)),
-      scene_(scene_of(options_)),
+      scene_(scene_of(options_, info_)),
       context_(options_.headless ? Context::headless(options_.device) : Context::window(info_.name, options_.size)),
       shaders_(options_.root / "shaders"),
       timer_(context_.is_software() ? PassTimer::Clock::cpu_around_finish : PassTimer::Clock::gpu_queries),
@@ -135,6 +136,13 @@ shared::CameraData App::camera() const
 {
     const glm::vec2 offset(radical_inverse(2, sample_), radical_inverse(3, sample_));
     return moved(camera_data(camera_, size_, scene_.bounds), offset - glm::round(offset));
+}
+
+void App::follow(const std::vector<Camera>& cameras)
+{
+    const CameraChoice& choice = options_.camera;
+    if (cameras.empty() || window_ != nullptr || choice.position || choice.orientation) return;
+    camera_.world_from_camera = cameras[std::size_t(choice.index.value_or(0))].world_from_camera;
 }
 
 const View& App::view() const { return info_.views[view_index_]; }

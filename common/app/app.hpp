@@ -38,6 +38,7 @@ public:
 
     const Options& options() const { return options_; }
     const Scene& scene() const { return scene_; }
+    Scene& scene() { return scene_; }  // its bounds stay
     gl::Shaders& shaders() { return shaders_; }
 
     // In a window: what there is to see, and follows the reader, until the first frame is done. `draw` makes a picture
@@ -61,6 +62,9 @@ public:
     // This frame's picture is not the last word, though nothing changes: a window draws another.
     void expect_more() { expects_more_ = true; }
     const Camera& scene_camera() const { return camera_; }  // the same, as the path tracer takes it
+    // The scene's cameras have moved, and this one with them; but not where a preset has placed it, or in a window, where
+    // the reader has it.
+    void follow(const std::vector<Camera>& cameras);
     const View& view() const;                               // this frame's
     bool shows(const std::string& view_name) const { return view().name == view_name; }
 

@@ -286,11 +286,13 @@ void GpuScene::draw(const gl::Program& program, Culling culling) const
     unbind_samplers();
 }
 
-void GpuScene::draw_geometry(const gl::Program& program) const
+void GpuScene::draw_geometry(const gl::Program& program, Range triangles) const
 {
+    program.set("first_triangle", triangles.first);
     program.use();
     glBindVertexArray(vertex_array_.id());
-    glDrawElements(GL_TRIANGLES, GLsizei(3 * triangle_count_), GL_UNSIGNED_INT, nullptr);
+    glDrawElements(GL_TRIANGLES, GLsizei(3 * triangles.count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(3 * std::size_t(triangles.first) * sizeof(GLuint)));
 }
 
 void GpuScene::bind_triangles() const

@@ -39,8 +39,8 @@ public:
     // Vertex attributes: 0 position, 1 normal, 2 tangent, 3 uv0, 4 uv1, 5 colour (see Vertex).
     void draw(const gl::Program& program, Culling culling) const;
 
-    // Draw every triangle of the scene at once, without materials: gl_PrimitiveID is the triangle's number.
-    void draw_geometry(const gl::Program& program) const;
+    // Draw these triangles at once, without materials: uniform uint first_triangle + gl_PrimitiveID is a triangle's number.
+    void draw_geometry(const gl::Program& program, Range triangles) const;
 
     // For shaders that fetch triangles themselves: kVertexBinding (18 floats each), kIndexBinding (3 a triangle),
     // kTriangleMaterialBinding (material's number | kTriangleDoubleSided). Throws std::runtime_error when the scene has
@@ -56,10 +56,17 @@ public:
     // Vertex by vertex as in Scene. Who writes it marks that.
     const gl::Buffer& vertices() const { return vertex_buffer_; }
     void mark_moved() { ++geometry_revision_; }
+    // The same where it is of what stands still, or where other nodes than before are dynamic.
+    void mark_changed()
+    {
+        ++geometry_revision_;
+        ++still_revision_;
+    }
     // Other lights than those of the file.
     void set_lights(const std::vector<Light>& lights);
     // What passes compare with what they were made from. Materials belong to the geometry.
     Revision geometry_revision() const { return geometry_revision_; }
+    Revision still_revision() const { return still_revision_; }
     Revision lights_revision() const { return lights_revision_; }
 
     // In the order of the draws, read back from GPU memory.
@@ -78,7 +85,7 @@ public:
 private:
     void bind_material(std::size_t material) const;
     std::size_t triangle_count_ = 0;
-    Revision geometry_revision_ = 1, lights_revision_ = 1;
+    Revision geometry_revision_ = 1, still_revision_ = 1, lights_revision_ = 1;
     Bounds bounds_;
     bool has_emission_ = false, may_move_ = false;
     std::vector<Light> lights_;

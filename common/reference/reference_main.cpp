@@ -54,7 +54,7 @@ int run(int argc, char** argv)
     std::optional<int> camera_index;
     PathTraceOptions options;
     float sky = 0.0f;
-    double time_s = 0.0;
+    std::optional<double> time_s;
     bool shared = false, write_parts = false;
     CLI::App app{"Path traces a glTF scene on the CPU: scene-linear radiance, standard error per pixel."};
     app.add_option("--scene", scene_file, ".gltf or .glb file")->required();
@@ -67,7 +67,7 @@ int run(int argc, char** argv)
     app.add_option("--part", part, "final, direct, indirect_diffuse, indirect_specular or emission");
     app.add_option("--error", error_file, ".exr file for the standard error per pixel");
     app.add_option("--sky", sky, "radiance of a constant sky, default 0")->check(CLI::Range(0.0, 1e9));
-    app.add_option("--time", time_s, "s: the pose of what the file animates, default 0")->check(CLI::Range(0.0, 1e6));
+    app.add_option("--time", time_s, "s: the pose of what the file animates; default: as it lies there")->check(CLI::Range(0.0, 1e6));
     app.add_option("--threads", options.threads, "default 0: all cores; does not change the picture")
         ->check(CLI::Range(0, 1024));
     app.add_option("--max-seconds", options.max_seconds, "stop after the pass that exceeds this time")
@@ -107,9 +107,12 @@ int run(int argc, char** argv)
     if (!error_file.empty() && options.spp < 2)
         throw std::runtime_error("--error needs at least 2 samples per pixel (--spp)");
 
-    const Scene scene = posed(load_scene(scene_file), time_s);
+    Scene scene = load_scene(scene_file);
+    const Bounds all_poses = time_s ? swept_bounds(scene) : scene.bounds;
+    if (time_s) scene = posed(std::move(scene), *time_s);
     const std::string name = std::filesystem::path(scene_file).filename().string();
     for (const std::string& warning : scene.warnings) std::cerr << name << ": note: " << warning << "\n";
+    scene.bounds = all_poses;  // a camera that the file lacks shows all of them, as in chapter 15
     const Camera camera = choose_camera(scene, camera_index);
     const bool terminal = isatty(STDERR_FILENO);
     if (terminal) options.progress = show_progress;

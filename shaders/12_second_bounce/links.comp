@@ -74,7 +74,7 @@ void main()
         vec3 direction = frame * cones[ray].xyz;
         WalkEnd end = walk(start, direction, threshold_of(ray));
         uint link = kSkyLink;
-        if (end.stopped) link = face_met(start.position + direction * end.t, direction, hashed(place * uint(cone_count) + uint(i)));
+        if (end.stopped) link = face_met(start.position + direction * end.t, direction, hashed(face_list[place] * uint(cone_count) + uint(i)));
         links[place * uint(cone_count) + uint(i)] = link;
 #if EMITTERS == 2
         if (link < kSkyLink) emitted += cones[ray].w * faces[link].emission.rgb;

@@ -64,5 +64,8 @@ CONEBOOK_CONSTANT int kRadianceAfterBinding = 2;
 CONEBOOK_CONSTANT int kLinkBinding = 4;
 CONEBOOK_CONSTANT int kChangeBinding = 6;
 CONEBOOK_CONSTANT int kAlbedoBinding = 7;
+// 15
+CONEBOOK_CONSTANT int kDynamicVoxelBinding = 1;
+CONEBOOK_CONSTANT int kDynamicCountBinding = 3;
 
 CONEBOOK_SHARED_END
