@@ -235,8 +235,8 @@ std::string ParameterTable::changed() const
         if (p.is_default()) continue;
         char number[32];
         const auto end = p.as_float != nullptr ? std::to_chars(number, std::end(number), *p.as_float).ptr : number;
-        out +=
-            " " + quoted(p.name + "=" + (p.as_float != nullptr ? std::string(number, end) : p.value_text(p.value())));
+        out.push_back(' ');
+        out += quoted(p.name + "=" + (p.as_float != nullptr ? std::string(number, end) : p.value_text(p.value())));
     }
     return out;
 }
