@@ -12,7 +12,7 @@ namespace {
 void grow(gl::Buffer& buffer, const char* label, std::size_t bytes, std::size_t kept)
 {
     if (buffer.bytes() >= bytes) return;
-    gl::Buffer larger(label, bytes + bytes / 4);
+    gl::Buffer larger(label, (bytes + bytes / 4 + 15) / 16 * 16);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     if (kept > 0) glCopyNamedBufferSubData(buffer.id(), larger.id(), 0, 0, GLsizeiptr(kept));
     buffer = std::move(larger);

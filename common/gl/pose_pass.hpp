@@ -16,8 +16,8 @@ public:
     // holds nothing and does nothing; objects that were put into the scene are placed by who moves them.
     PosePass(gl::Shaders& shaders, const Scene& scene);
 
-    // Poses the dynamic nodes whose matrices or weights differ from those of the last call (of the first: from the rest
-    // pose) and counts up geometry_revision(). Says whether there were any. `gpu_scene` was made from the same scene.
+    // Poses the dynamic nodes whose matrices or weights differ from those of the last call (at the first: all of them, so that
+    // no vertex is the loader's, which rounds otherwise) and counts up geometry_revision(). Says whether there were any. `gpu_scene` was made from the same scene.
     bool run(GpuScene& gpu_scene, const std::vector<NodePose>& nodes);
 
     // Indices into Scene::nodes of those that the last call moved.

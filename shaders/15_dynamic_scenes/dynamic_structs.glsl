@@ -23,6 +23,7 @@ struct DynamicCounts {
     uint lost;
     uint placed_faces;  // while they get their places
     uint placed_voxels;
+    uint unused0, unused1;
 };
 
 CONEBOOK_SHARED_END
