@@ -132,7 +132,7 @@ private:
     std::size_t view_index_ = 0;
     int frame_ = -1, sample_ = 0;
     bool accumulates_ = false, expects_more_ = false;  // this frame
-    MadeFrom<glm::mat4, glm::ivec2, std::size_t, std::vector<double>, bool, Revision> seen_;
+    MadeFrom<glm::mat4, glm::ivec2, std::size_t, ParameterValues, bool, Revision> seen_;
     const gl::Texture* linear_ = nullptr;
     const gl::Texture* display_ = nullptr;
     std::unique_ptr<Window> window_;  // null when headless

@@ -71,8 +71,8 @@ bool App::undo_values(const std::exception& fault)
 {
     if (window_ == nullptr || dynamic_cast<const ExitRequest*>(&fault) != nullptr) return false;
     Window& w = *window_;
-    if (w.drawn_values.empty() || w.drawn_values == info_.parameters.values()) return false;
-    info_.parameters.set_values(w.drawn_values);
+    if (!w.drawn_values || *w.drawn_values == info_.parameters.values()) return false;
+    info_.parameters.set_values(*w.drawn_values);
     w.fault = fault.what();
     std::cerr << info_.name << ": " << w.fault << "\n";
     w.resolution.change();

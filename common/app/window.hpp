@@ -25,7 +25,7 @@ struct WindowRequests {
     std::optional<std::size_t> view;
     int views_on = 0;
     std::optional<glm::mat4> world_from_camera;  // where the camera has moved
-    std::optional<std::vector<double>> values;   // of all parameters, by the panel
+    std::optional<ParameterValues> values;       // by the panel
     bool section = false;                        // a section of the panel has changed something
 };
 

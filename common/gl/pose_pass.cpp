@@ -14,7 +14,7 @@ PosePass::PosePass(gl::Shaders& shaders, const Scene& scene) : scene_(scene)
     const std::vector<NodePose> rest = rest_pose(scene);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
-        if (!node.dynamic || node.modelled.count == 0) continue;
+        if (!node.dynamic || node.modelled.count == 0 || node.object >= 0) continue;
         parts_.push_back({i, matrices, weights, {}, {}});
         matrices += scene_from_mesh(scene, rest, i).size();
         weights += node.weights.size();

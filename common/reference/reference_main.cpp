@@ -13,6 +13,7 @@
 #include "image/picture_size.hpp"
 #include "reference/path_tracer.hpp"
 #include "reference/shared_light.hpp"
+#include "scene/objects.hpp"
 #include "scene/pose.hpp"
 
 using namespace conebook;
@@ -55,6 +56,7 @@ int run(int argc, char** argv)
     PathTraceOptions options;
     float sky = 0.0f;
     std::optional<double> time_s;
+    std::string objects;
     bool shared = false, write_parts = false;
     CLI::App app{"Path traces a glTF scene on the CPU: scene-linear radiance, standard error per pixel."};
     app.add_option("--scene", scene_file, ".gltf or .glb file")->required();
@@ -68,6 +70,7 @@ int run(int argc, char** argv)
     app.add_option("--error", error_file, ".exr file for the standard error per pixel");
     app.add_option("--sky", sky, "radiance of a constant sky, default 0")->check(CLI::Range(0.0, 1e9));
     app.add_option("--time", time_s, "s: the pose of what the file animates; default: as it lies there")->check(CLI::Range(0.0, 1e6));
+    app.add_option("--objects", objects, objects_help());
     app.add_option("--threads", options.threads, "default 0: all cores; does not change the picture")
         ->check(CLI::Range(0, 1024));
     app.add_option("--max-seconds", options.max_seconds, "stop after the pass that exceeds this time")
@@ -108,6 +111,13 @@ int run(int argc, char** argv)
         throw std::runtime_error("--error needs at least 2 samples per pixel (--spp)");
 
     Scene scene = load_scene(scene_file);
+    PlacedObjects placed(scene);
+    try {
+        placed.set(parse_objects(objects));
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(std::string("--objects: ") + error.what());
+    }
+    placed.include_in_bounds();
     const Bounds all_poses = time_s ? swept_bounds(scene) : scene.bounds;
     if (time_s) scene = posed(std::move(scene), *time_s);
     const std::string name = std::filesystem::path(scene_file).filename().string();
