@@ -82,15 +82,68 @@ TEST(DynamicScenes, ALightThatMovesMovesItsLight)
     EXPECT_EQ(now.direction, expected.direction);
 }
 
-// After other poses the picture is the one that begins with this pose.
+double mean_of(const std::vector<float>& values)
+{
+    double sum = 0.0;
+    for (const float value : values) sum += double(value);
+    return sum / double(values.size());
+}
+
+// After other poses the picture is the one that begins with this pose; when the bounces begin with the last light, to within
+// their tolerance.
 TEST(DynamicScenes, APictureDoesNotTellWhatWasBefore)
 {
-    const auto after = [](const std::vector<float>& times) {
-        MovingFrames frames(asset("figure"), MovingFrames::small());
+    const auto after = [](const std::vector<float>& times, bool warm) {
+        MovingParams params = MovingFrames::small();
+        params.scene.bounces.warm_start = warm;
+        MovingFrames frames(asset("figure"), params);
         for (const float time_s : times) frames.draw_at(time_s);
         return frames.pixels();
     };
-    EXPECT_EQ(after({0.0f, 1.1f, 0.3f, 0.6f}), after({0.6f}));
+    const std::vector<float> alone = after({0.6f}, false), warm = after({0.0f, 1.1f, 0.3f, 0.6f}, true);
+    EXPECT_EQ(after({0.0f, 1.1f, 0.3f, 0.6f}, false), alone);
+    ASSERT_EQ(warm.size(), alone.size());
+    // Half of the light at most comes by way of voxels, whose error is under tolerance / (1 - 0.7) of the brightest.
+    const float brightest = *std::max_element(alone.begin(), alone.end());
+    for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_NEAR(warm[i], alone[i], 2e-3f * brightest);
+}
+
+// How long the light of an opened door is on its way.
+TEST(DynamicScenes, AfterADoorOpens)
+{
+    constexpr float kClosed_s = 0.5f, kOpen_s = 3.5f;
+    const auto open_door = [&](bool warm, int bounces_a_frame, float tolerance, const auto& look) {
+        MovingParams params = MovingFrames::small(32);
+        params.scene.bounces.warm_start = warm;
+        params.scene.bounces.bounces_a_frame = bounces_a_frame;
+        params.scene.bounces.tolerance = tolerance;
+        MovingFrames frames(asset("door"), params);
+        do frames.draw_at(kClosed_s);
+        while (!frames.light.bounces().is_settled());
+        frames.draw_at(kOpen_s);
+        look(frames);
+    };
+    double truth = 0.0, before = 0.0;
+    int cold = 0, warm = 0, lag = 1;
+    open_door(false, 0, 1e-5f, [&](MovingFrames& f) { truth = mean_of(f.pixels()); });
+    open_door(false, 0, 1e-3f, [&](MovingFrames& f) { cold = f.light.bounces().count(); });
+    open_door(true, 0, 1e-3f, [&](MovingFrames& f) {
+        warm = f.light.bounces().count();
+        EXPECT_NEAR(mean_of(f.pixels()) / truth, 1.0, 0.01);
+    });
+    open_door(true, 1, 1e-3f, [&](MovingFrames& f) {
+        before = mean_of(f.pixels());
+        for (; std::abs(mean_of(f.pixels()) / truth - 1.0) > 0.01 && lag < 100; ++lag) f.draw();
+        while (!f.light.bounces().is_settled()) f.draw();
+        EXPECT_NEAR(mean_of(f.pixels()) / truth, 1.0, 0.01) << "settled";
+    });
+    EXPECT_LE(warm, cold);
+    EXPECT_LT(lag, 100);
+    std::printf("bounces: %d from direct light, %d from the last light; one a frame: %.3f of the light at first, within 1 %% after %d "
+                "frames\n", cold, warm, before / truth, lag);
+    RecordProperty("bounces_cold", std::to_string(cold));
+    RecordProperty("bounces_warm", std::to_string(warm));
+    RecordProperty("frames_to_1_percent", std::to_string(lag));
 }
 
 // E / pi of a disc of radiance L and radius R at height h above the point: L R^2 / (R^2 + h^2).

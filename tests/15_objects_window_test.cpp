@@ -1,5 +1,5 @@
-// Objects in chapter 15's window, under a virtual X server with real events: what the reader does there is in the parameter,
-// in the preset, and in the picture as headless makes it from them.
+// Objects in chapter 15's window, under a virtual X server with real events: what the reader does there is in the
+// parameter, in the preset, and in the picture as headless makes it from them.
 #include <cmath>
 
 #include "window_picture.hpp"

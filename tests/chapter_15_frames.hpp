@@ -45,6 +45,7 @@ public:
     {
         MovingParams params;
         params.scene.voxels.grid.voxels = voxels;
+        params.scene.bounces.warm_start = true;
         params.camera.accumulation.accumulate = false;
         return params;
     }

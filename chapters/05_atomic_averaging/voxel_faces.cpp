@@ -140,6 +140,8 @@ bool VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const Conserv
     ++revision_;
     allocate(grid);
     make_lists(grid, voxelizer);
+    lists_.kept = lists_.counted.faces;
+    ++lists_.order;
     grow(lists_.sums, "face sums", lists_.counted.faces * kBytesOfSums);
     grow(lists_.faces, "faces", lists_.counted.faces * sizeof(shared::VoxelFace));
     lists_.sums.clear();

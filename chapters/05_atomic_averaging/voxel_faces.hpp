@@ -38,6 +38,9 @@ struct FaceLists {
     gl::Buffer faces;                    // shared::VoxelFace a face
     gl::Buffer face_groups, voxel_groups;  // indirect dispatch of 64 a work group
     shared::VoxelStatistics counted{};   // the same is in the voxelizer's statistics_buffer()
+    // The first `kept` faces are where they are as long as `order` stays the same.
+    GLuint kept = 0;
+    Revision order = 0;
     void count_groups();                 // face_groups and voxel_groups from `counted`
 };
 // Bytes of a face in FaceLists::sums.
@@ -64,6 +67,8 @@ public:
     std::size_t voxel_count() const { return lists_.counted.voxels; }
     std::size_t face_count() const { return lists_.counted.faces; }
     const shared::VoxelStatistics& counted() const { return lists_.counted; }
+    GLuint kept() const { return lists_.kept; }
+    Revision order() const { return lists_.order; }
     // All of it, for who puts in or takes out voxels; counts up revision().
     FaceLists& edit()
     {

@@ -7,17 +7,6 @@ namespace conebook {
 
 namespace {
 
-// Another buffer where there is too little room, with what the first `kept` bytes held. A quarter more than is needed, since
-// what moves needs a little more or less from frame to frame.
-void grow(gl::Buffer& buffer, const char* label, std::size_t bytes, std::size_t kept)
-{
-    if (buffer.bytes() >= bytes) return;
-    gl::Buffer larger(label, (bytes + bytes / 4 + 15) / 16 * 16);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    if (kept > 0) glCopyNamedBufferSubData(buffer.id(), larger.id(), 0, 0, GLsizeiptr(kept));
-    buffer = std::move(larger);
-}
-
 void add_range(std::vector<Range>& ranges, Range range)
 {
     if (range.count == 0) return;
@@ -124,7 +113,7 @@ void DynamicVoxels::put_in(const GpuScene& scene, const LitVoxels::Parts& parts,
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 
     // List them.
-    grow(list_, "voxels of what moves", fragments_.count() * sizeof(shared::DynamicVoxel), 0);
+    gl::grow(list_, "voxels of what moves", fragments_.count() * sizeof(shared::DynamicVoxel), 0);
     counts_.clear();
     parts.grid.bind();
     parts.voxelizer.occupancy().bind_image(0, 0, GL_READ_WRITE);
@@ -169,11 +158,12 @@ void DynamicVoxels::count_again(const LitVoxels::Parts& parts, FaceLists& lists)
     if (faces >= (1u << 26))
         throw std::runtime_error("the voxels have more than 2^26 faces; use a smaller --set voxels=");
     gl::require_storage("faces of voxels, their sums", faces, kBytesOfSums, "a smaller --set voxels=");
-    grow(lists.voxel_list, "voxel list", voxels * sizeof(GLuint), still_.voxels * sizeof(GLuint));
-    grow(lists.face_list, "face list", faces * sizeof(GLuint), still_.faces * sizeof(GLuint));
-    grow(lists.sums, "face sums", faces * kBytesOfSums, still_.faces * kBytesOfSums);
-    grow(lists.faces, "faces", faces * sizeof(shared::VoxelFace), still_.faces * sizeof(shared::VoxelFace));
+    gl::grow(lists.voxel_list, "voxel list", voxels * sizeof(GLuint), still_.voxels * sizeof(GLuint));
+    gl::grow(lists.face_list, "face list", faces * sizeof(GLuint), still_.faces * sizeof(GLuint));
+    gl::grow(lists.sums, "face sums", faces * kBytesOfSums, still_.faces * kBytesOfSums);
+    gl::grow(lists.faces, "faces", faces * sizeof(shared::VoxelFace), still_.faces * sizeof(shared::VoxelFace));
     lists.count_groups();
+    lists.kept = still_.faces;
     parts.voxelizer.statistics_buffer().write(0, sizeof lists.counted, &lists.counted);
 }
 

@@ -7,9 +7,11 @@
 // Page: docs/15_dynamic_scenes.md
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "01_first_light/first_light.hpp"
 #include "12_second_bounce/camera_light.hpp"
+#include "15_dynamic_scenes/changes.hpp"
 #include "15_dynamic_scenes/dynamic_voxels.hpp"
 #include "15_dynamic_scenes/moving_scene.hpp"
 #include "15_dynamic_scenes/scene_objects.hpp"
@@ -41,13 +43,16 @@ private:
 int main(int argc, char** argv)
 try {
     SceneLightParams scene_params;
+    scene_params.bounces.warm_start = true;
     CameraLightParams camera_params;
     MotionParams motion_params;
     DynamicVoxelParams dynamic_params;
+    ChangeParams change_params;
     ObjectParams object_params;
     DisplayParams display_params;
-    ParameterTable parameters =
-        parameters_of(scene_params, camera_params, motion_params, dynamic_params, object_params, display_params);
+    ParameterTable parameters = parameters_of(scene_params, camera_params, motion_params, dynamic_params, change_params,
+                                              object_params, display_params);
+    add_warm_start(parameters, scene_params.bounces);
 
     SceneObjects objects(object_params);
     App app(argc, argv, {"15_dynamic_scenes", light_views(), parameters, [&](Scene& loaded) {
@@ -69,6 +74,7 @@ try {
         return plan_light(traits, scene_params.voxels.shading, scene_params.bounces, camera_params.shadows);
     };
     Clock clock;
+    MadeFrom<float> followed;  // by the camera: time
 
     app.each_frame([&] {
         // Objects that the reader has put into the scene, moved, or given a material.
@@ -81,8 +87,9 @@ try {
             clock.advance(motion_params.time, moving->duration_s());
             app.expect_more();
         }
+        make_change(change_params, app, scene, motion_params, camera_params);
         app.pass("pose", Scope::scene, [&] { return moving->run(scene, double(motion_params.time)); });
-        app.follow(moving->cameras());
+        if (followed.differs(motion_params.time)) app.follow(moving->cameras());
 
         // Which passes this takes.
         const LightPlan plan = make_plan();
@@ -91,6 +98,8 @@ try {
         scene_light.run(app, scene, camera_params.cones, plan, [&] {
             dynamic_voxels.run(app, app.scene(), scene, scene_light.voxels(), dynamic_params);
         });
+
+        if (!scene_light.bounces().is_settled()) app.expect_more();
 
         // What the camera sees, what other surfaces send to it, and the sum.
         camera_light.see(app, scene);

@@ -28,7 +28,8 @@ struct Picked {
     int object = -1;  // of PlacedObjects::objects()
     double distance_m = 0.0;
 };
-// The object that the ray meets first, if nothing else is before it. Nodes of the file are where Scene::vertices has them.
+// The object that the ray meets first, if nothing else is before it. Nodes of the file are where Scene::vertices has
+// them.
 std::optional<Picked> pick(const Scene& scene, const PickRay& ray);
 
 class SceneObjects {
@@ -39,15 +40,15 @@ public:
     // For ProgramInfo::prepare: puts the objects into the scene, whose bounds then hold them.
     void place_first(Scene& scene);
 
-    // In a window: what the reader does there from now on is taken by the next update(). Keys: arrows, Page Up and Down move
-    // the object that was picked along the axes of the world; M makes it dynamic or static; Delete removes it; Insert adds
-    // one; C brings the light to the camera.
+    // In a window: what the reader does there from now on is taken by the next update(). Keys: arrows, Page Up and Down
+    // move the object that was picked along the axes of the world; M makes it dynamic or static; Delete removes it;
+    // Insert adds one; C brings the light to the camera.
     void follow_reader(App& app);
 
-    // At the beginning of a frame: what the parameter and the reader ask for, in the app's scene and on the GPU, with the
-    // revisions that passes compare. The parameter then says what there is. Throws std::runtime_error, and changes nothing,
-    // where a file cannot be read. After `others` of the result, a MovingScene is to be made anew; after that and after another
-    // material, what was found out about materials (traits_of).
+    // At the beginning of a frame: what the parameter and the reader ask for, in the app's scene and on the GPU, with
+    // the revisions that passes compare. The parameter then says what there is. Throws std::runtime_error, and changes
+    // nothing, where a file cannot be read. After `others` of the result, a MovingScene is to be made anew; after that
+    // and after another material, what was found out about materials (traits_of).
     ObjectChanges update(App& app, GpuScene& gpu_scene);
 
     const std::vector<Object>& objects() const { return placed_->objects(); }

@@ -85,7 +85,11 @@ void App::place_light(const LightChoice& choice)
     place_lights(scene_, {choice});
     const auto same = std::find_if(options_.lights.begin(), options_.lights.end(),
                                    [&](const LightChoice& other) { return other.index == choice.index; });
-    LightChoice& kept = same != options_.lights.end() ? *same : options_.lights.emplace_back(LightChoice{choice.index, {}, {}, {}});
+    if (same == options_.lights.end()) {
+        options_.lights.push_back(choice);
+        return;
+    }
+    LightChoice& kept = *same;
     if (choice.intensity) kept.intensity = choice.intensity;
     if (choice.position) kept.position = choice.position;
     if (choice.direction) kept.direction = choice.direction;

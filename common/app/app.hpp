@@ -70,6 +70,7 @@ public:
     // The scene's cameras have moved, and this one with them; but not where a preset has placed it, or in a window, where
     // the reader has it.
     void follow(const std::vector<Camera>& cameras);
+    void move_camera(const glm::mat4& world_from_camera) { camera_.world_from_camera = world_from_camera; }
     const View& view() const;                               // this frame's
     bool shows(const std::string& view_name) const { return view().name == view_name; }
 
