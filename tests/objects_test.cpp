@@ -164,7 +164,7 @@ TEST(Objects, StandWhereTheySay)
     object.at = {0.3, 0.7, -0.2};
     object.scale = {0.4, 0.8, 0.2};
     object.turn_degrees = {0.0, 0.0, 90.0};  // its y is -x of the world
-    placed.set({object});
+    placed.set(scene, {object});
     const Node& node = scene.nodes.at(placed.node_of(0));
     for (std::uint32_t v = node.vertices.first; v < node.vertices.end(); ++v) {
         const glm::dvec3 p = glm::dvec3(scene.vertices[v].position) + scene.origin_ws - object.at;
@@ -184,7 +184,7 @@ TEST(Objects, AreFilesWithTheirTextures)
     const std::size_t images = scene.images.size(), materials = scene.materials.size(),
                       triangles = scene.triangle_count();
     PlacedObjects placed(scene);
-    placed.set(parse_objects("cube+" + asset_file("glossy_room") + ":at=1,0,0:scale=0.5"));
+    placed.set(scene, parse_objects("cube+" + asset_file("glossy_room") + ":at=1,0,0:scale=0.5"));
     EXPECT_EQ(scene.images.size(), images + file.images.size());
     EXPECT_EQ(scene.materials.size(), materials + 1 + file.materials.size());
     EXPECT_EQ(scene.triangle_count(), triangles + 12 + file.triangle_count());
@@ -209,13 +209,13 @@ TEST(Objects, ThatCannotBeReadChangeNothing)
 {
     Scene scene = load_scene(asset_file("cornell_empty"));
     PlacedObjects placed(scene);
-    placed.set(parse_objects("cube:scale=0.3"));
+    placed.set(scene, parse_objects("cube:scale=0.3"));
     const std::size_t nodes = scene.nodes.size(), vertices = scene.vertices.size();
     const TemporaryFolder folder;
     const std::string broken = (folder / "broken.glb").string();
     std::ofstream(broken) << "glTF no more";
     for (const std::string& file : {std::string("no/such.glb"), broken}) {
-        const std::string said = fault_of([&] { placed.set(parse_objects("sphere+" + file)); });
+        const std::string said = fault_of([&] { placed.set(scene, parse_objects("sphere+" + file)); });
         EXPECT_EQ(said.rfind(file + ": ", 0), 0u) << said;
         EXPECT_EQ(said.find('\n'), std::string::npos);
     }
@@ -305,21 +305,21 @@ TEST(Objects, AnyWayToASceneEndsInTheSameBuffers)
     int moves = 0, others = 0;
     for (int i = 1; i <= 200; ++i) {
         random.edit(objects, files);
-        const ObjectChanges changes = placed.set(objects);
+        const ObjectChanges changes = placed.set(scene, objects);
         follow(gpu_scene, scene, placed, changes);
         moves += !changes.others && changes.moved.size() == 1;
         others += changes.others;
         if (i % 10 != 0) continue;
         Scene fresh = load_scene(asset_file("glossy_room"));
         PlacedObjects placed_afresh(fresh);
-        placed_afresh.set(objects);
+        placed_afresh.set(fresh, objects);
         ASSERT_EQ(contents(gpu_scene), contents(GpuScene(fresh))) << "after " << i << " edits: " << text_of(objects);
     }
     EXPECT_GT(moves, 40);
     EXPECT_GT(others, 20);
-    const ObjectChanges none = placed.set(objects);
+    const ObjectChanges none = placed.set(scene, objects);
     EXPECT_FALSE(none.any());
-    follow(gpu_scene, scene, placed, placed.set({}));
+    follow(gpu_scene, scene, placed, placed.set(scene, {}));
     EXPECT_EQ(contents(gpu_scene), contents(GpuScene(load_scene(asset_file("glossy_room")))));
 }
 
@@ -329,12 +329,12 @@ TEST(Objects, MoveWithoutTheirBuffersMadeAgain)
     Scene scene = load_scene(asset_file("cornell_box"));
     PlacedObjects placed(scene);
     std::vector<Object> objects = parse_objects("torus:scale=0.5+sphere:scale=0.3:dynamic");
-    placed.set(objects);
+    placed.set(scene, objects);
     GpuScene gpu_scene(scene);
     const auto vertices = gpu_scene.vertices().read<Vertex>();
     const GLuint buffer = gpu_scene.vertices().id();
     objects[1].at.x = 0.25;
-    const ObjectChanges changes = placed.set(objects);
+    const ObjectChanges changes = placed.set(scene, objects);
     EXPECT_FALSE(changes.others);
     ASSERT_EQ(changes.moved, std::vector<std::size_t>{placed.node_of(1)});
     follow(gpu_scene, scene, placed, changes);
@@ -350,7 +350,7 @@ TEST(Objects, StayWhereTheyAreWhileTheSceneMoves)
 {
     Scene scene = load_scene(asset_file("spinning_shapes"));
     PlacedObjects placed(scene);
-    placed.set(parse_objects("cone:at=0,1,0:dynamic"));
+    placed.set(scene, parse_objects("cone:at=0,1,0:dynamic"));
     const Node& node = scene.nodes[placed.node_of(0)];
     const Pose later = pose(scene, 1.3);
     for (std::uint32_t v = node.vertices.first; v < node.vertices.end(); ++v)

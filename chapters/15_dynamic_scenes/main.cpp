@@ -7,12 +7,14 @@
 // Page: docs/15_dynamic_scenes.md
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "01_first_light/first_light.hpp"
 #include "12_second_bounce/camera_light.hpp"
 #include "15_dynamic_scenes/changes.hpp"
 #include "15_dynamic_scenes/dynamic_voxels.hpp"
 #include "15_dynamic_scenes/moving_scene.hpp"
+#include "15_dynamic_scenes/scene_objects.hpp"
 
 using namespace conebook;
 
@@ -46,36 +48,48 @@ try {
     MotionParams motion_params;
     DynamicVoxelParams dynamic_params;
     ChangeParams change_params;
+    ObjectParams object_params;
     DisplayParams display_params;
     ParameterTable parameters = parameters_of(scene_params, camera_params, motion_params, dynamic_params, change_params,
-                                              display_params);
+                                              object_params, display_params);
     add_warm_start(parameters, scene_params.bounces);
 
-    App app(argc, argv, {"15_dynamic_scenes", light_views(), parameters, hold_all_poses});
+    SceneObjects objects(object_params);
+    App app(argc, argv, {"15_dynamic_scenes", light_views(), parameters, [&](Scene& loaded) {
+                             objects.place_first(loaded);
+                             hold_all_poses(loaded);
+                         }});
     const bool in_window = !app.options().headless;
 
     GpuScene scene(app.scene());
     app.show_meanwhile(first_light(app, scene, display_params));
-    MovingScene moving(app.shaders(), app.scene());
+    objects.follow_reader(app);
+    std::optional<MovingScene> moving(std::in_place, app.shaders(), app.scene());
     SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params);
     DynamicVoxels dynamic_voxels(app.shaders());
     CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
     ToneMapPass tone_map(app.shaders());
-    const SceneTraits traits = traits_of(app.scene());
+    SceneTraits traits = traits_of(app.scene());
     const auto make_plan = [&] {
         return plan_light(traits, scene_params.voxels.shading, scene_params.bounces, camera_params.shadows);
     };
     Clock clock;
+    MadeFrom<float> followed;  // by the camera: time
 
     app.each_frame([&] {
+        // Objects that the reader has put into the scene, moved, or given a material.
+        const ObjectChanges changes = objects.update(app, scene);
+        if (changes.others) moving.emplace(app.shaders(), app.scene());
+        if (changes.others || !changes.materials.empty()) traits = traits_of(app.scene());
+
         // What time it is, and where everything is then.
-        if (in_window && motion_params.play && moving.moves()) {
-            clock.advance(motion_params.time, moving.duration_s());
+        if (in_window && motion_params.play && moving->moves()) {
+            clock.advance(motion_params.time, moving->duration_s());
             app.expect_more();
         }
-        app.follow(moving.cameras());
         make_change(change_params, app, scene, motion_params, camera_params);
-        app.pass("pose", Scope::scene, [&] { return moving.run(scene, double(motion_params.time)); });
+        app.pass("pose", Scope::scene, [&] { return moving->run(scene, double(motion_params.time)); });
+        if (followed.differs(motion_params.time)) app.follow(moving->cameras());
 
         // Which passes this takes.
         const LightPlan plan = make_plan();
@@ -98,7 +112,7 @@ try {
     std::vector<Count> counts = scene_light.counts();
     for (const Count& count : dynamic_voxels.counts()) counts.push_back(count);
     app.statistics().set_counts(counts);
-    for (const auto& part : {scene.resources(), moving.resources(), scene_light.resources(),
+    for (const auto& part : {scene.resources(), moving->resources(), scene_light.resources(),
                              dynamic_voxels.resources(), camera_light.resources()})
         app.statistics().add_resources(part);
     for (const auto& needs :

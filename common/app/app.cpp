@@ -9,6 +9,7 @@
 
 #include "app/app_window.hpp"
 #include "app/needs.hpp"
+#include "scene/objects.hpp"
 
 namespace conebook {
 
@@ -79,6 +80,21 @@ App::App(int argc, char** argv, ProgramInfo info)
 
 App::~App() = default;
 
+void App::place_light(const LightChoice& choice)
+{
+    place_lights(scene_, {choice});
+    const auto same = std::find_if(options_.lights.begin(), options_.lights.end(),
+                                   [&](const LightChoice& other) { return other.index == choice.index; });
+    if (same == options_.lights.end()) {
+        options_.lights.push_back(choice);
+        return;
+    }
+    LightChoice& kept = *same;
+    if (choice.intensity) kept.intensity = choice.intensity;
+    if (choice.position) kept.position = choice.position;
+    if (choice.direction) kept.direction = choice.direction;
+}
+
 void App::each_frame(const std::function<void()>& draw)
 {
     while (next_frame()) {
@@ -135,7 +151,7 @@ int App::sample(bool accumulate, Revision light)
 shared::CameraData App::camera() const
 {
     const glm::vec2 offset(radical_inverse(2, sample_), radical_inverse(3, sample_));
-    return moved(camera_data(camera_, size_, scene_.bounds), offset - glm::round(offset));
+    return moved(camera_data(camera_, size_, bounds_with_objects(scene_)), offset - glm::round(offset));
 }
 
 void App::follow(const std::vector<Camera>& cameras)

@@ -21,6 +21,7 @@
 #include "app/panel.hpp"
 #include "app/pass_timer.hpp"
 #include "app/statistics.hpp"
+#include "app/window.hpp"
 #include "gl/debug_log.hpp"
 #include "gl/gpu_scene.hpp"
 #include "gl/handles.hpp"
@@ -47,6 +48,10 @@ public:
 
     // Adds a part of a chapter's own to the window's panel. Without a window, nothing.
     void add_panel_section(PanelSection section);
+    // The window's keys and mouse, where they are neither the panel's nor the camera's. Without a window, nothing.
+    void on_input(std::function<bool(const InputEvent&)> handler);
+    // One of the scene's lights as a preset would place it; --save-preset keeps it.
+    void place_light(const LightChoice& choice);
 
     // Draws frame after frame, until the last one is done or the window is closed.
     void each_frame(const std::function<void()>& draw);

@@ -44,6 +44,11 @@ void App::add_panel_section(PanelSection section)
     if (window_ != nullptr) window_->sections.push_back(std::move(section));
 }
 
+void App::on_input(std::function<bool(const InputEvent&)> handler)
+{
+    if (window_ != nullptr) window_->input.set_handler(std::move(handler));
+}
+
 // Builds the panel, and takes what the reader did in it for a request.
 void App::build_panel()
 {

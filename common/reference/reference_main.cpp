@@ -113,11 +113,11 @@ int run(int argc, char** argv)
     Scene scene = load_scene(scene_file);
     PlacedObjects placed(scene);
     try {
-        placed.set(parse_objects(objects));
+        placed.set(scene, parse_objects(objects));
     } catch (const std::runtime_error& error) {
         throw std::runtime_error(std::string("--objects: ") + error.what());
     }
-    placed.include_in_bounds();
+    scene.bounds = bounds_with_objects(scene);
     const Bounds all_poses = time_s ? swept_bounds(scene) : scene.bounds;
     if (time_s) scene = posed(std::move(scene), *time_s);
     const std::string name = std::filesystem::path(scene_file).filename().string();

@@ -49,6 +49,18 @@ void include(Bounds& bounds, const Bounds& other)
     bounds.max = glm::max(bounds.max, other.max);
 }
 
+// Moves the node of an object there.
+void place(Scene& scene, const Object& object, std::size_t index)
+{
+    Node& node = scene.nodes[index];
+    node.local = object.transform();
+    node.world_from_node = node.local.matrix();
+    const std::vector<Vertex> vertices = posed_vertices(scene, rest_pose(scene), index);
+    std::copy(vertices.begin(), vertices.end(), scene.vertices.begin() + node.vertices.first);
+    node.bounds = {vertices[0].position, vertices[0].position};
+    for (const Vertex& vertex : vertices) include(node.bounds, {vertex.position, vertex.position});
+}
+
 }  // namespace
 
 Transform Object::transform() const
@@ -61,9 +73,9 @@ Transform Object::transform() const
     return {at, about(2) * about(1) * about(0), scale};
 }
 
-PlacedObjects::PlacedObjects(Scene& scene)
-    : scene_(scene), file_{scene.nodes.size(),     scene.vertices.size(), scene.indices.size(), scene.draws.size(),
-                           scene.materials.size(), scene.images.size(),   scene.modelled.size()}
+PlacedObjects::PlacedObjects(const Scene& scene)
+    : file_{scene.nodes.size(),     scene.vertices.size(), scene.indices.size(), scene.draws.size(),
+            scene.materials.size(), scene.images.size(),   scene.modelled.size()}
 {
 }
 
@@ -97,11 +109,11 @@ const PlacedObjects::Model& PlacedObjects::model(const std::string& source, std:
 }
 
 // Behind all that the scene holds.
-void PlacedObjects::append(const Object& object, std::size_t number)
+void PlacedObjects::append(Scene& scene, const Object& object, std::size_t number) const
 {
     const Model& model = models_.at(object.source);
-    const auto first_vertex = std::uint32_t(scene_.vertices.size()), first_index = std::uint32_t(scene_.indices.size());
-    const auto first_material = int(scene_.materials.size());
+    const auto first_vertex = std::uint32_t(scene.vertices.size()), first_index = std::uint32_t(scene.indices.size());
+    const auto first_material = int(scene.materials.size());
     Node node;
     node.name = object.source;
     node.file_index = -1;
@@ -109,43 +121,32 @@ void PlacedObjects::append(const Object& object, std::size_t number)
     node.dynamic = object.dynamic;
     node.vertices = {first_vertex, std::uint32_t(model.vertices.size())};
     node.indices = {first_index, std::uint32_t(model.indices.size())};
-    node.draws = {std::uint32_t(scene_.draws.size()), std::uint32_t(model.draws.size())};
-    node.modelled = {std::uint32_t(scene_.modelled.size()), std::uint32_t(model.modelled.size())};
-    scene_.vertices.insert(scene_.vertices.end(), model.vertices.begin(), model.vertices.end());
-    scene_.modelled.insert(scene_.modelled.end(), model.modelled.begin(), model.modelled.end());
-    for (const std::uint32_t index : model.indices) scene_.indices.push_back(first_vertex + index);
+    node.draws = {std::uint32_t(scene.draws.size()), std::uint32_t(model.draws.size())};
+    node.modelled = {std::uint32_t(scene.modelled.size()), std::uint32_t(model.modelled.size())};
+    scene.vertices.insert(scene.vertices.end(), model.vertices.begin(), model.vertices.end());
+    scene.modelled.insert(scene.modelled.end(), model.modelled.begin(), model.modelled.end());
+    for (const std::uint32_t index : model.indices) scene.indices.push_back(first_vertex + index);
     const bool own_materials = !object.material && !model.materials.empty();
     for (Draw draw : model.draws) {
         draw.first_index += first_index;
         draw.vertices.first += first_vertex;
         draw.material = first_material + (own_materials ? draw.material : 0);
-        scene_.draws.push_back(std::move(draw));
+        scene.draws.push_back(std::move(draw));
     }
     if (own_materials) {
         for (Material material : model.materials) {
-            move_images(material, int(scene_.images.size()));
-            scene_.materials.push_back(std::move(material));
+            move_images(material, int(scene.images.size()));
+            scene.materials.push_back(std::move(material));
         }
-        scene_.images.insert(scene_.images.end(), model.images.begin(), model.images.end());
+        scene.images.insert(scene.images.end(), model.images.begin(), model.images.end());
     } else {
-        scene_.materials.push_back(material_of(object.material.value_or(ObjectMaterial{}), object.source));
+        scene.materials.push_back(material_of(object.material.value_or(ObjectMaterial{}), object.source));
     }
-    scene_.nodes.push_back(std::move(node));
-    place(object, scene_.nodes.size() - 1);
+    scene.nodes.push_back(std::move(node));
+    place(scene, object, scene.nodes.size() - 1);
 }
 
-void PlacedObjects::place(const Object& object, std::size_t index)
-{
-    Node& node = scene_.nodes[index];
-    node.local = object.transform();
-    node.world_from_node = node.local.matrix();
-    const std::vector<Vertex> vertices = posed_vertices(scene_, rest_pose(scene_), index);
-    std::copy(vertices.begin(), vertices.end(), scene_.vertices.begin() + node.vertices.first);
-    node.bounds = {vertices[0].position, vertices[0].position};
-    for (const Vertex& vertex : vertices) include(node.bounds, {vertex.position, vertex.position});
-}
-
-ObjectChanges PlacedObjects::set(const std::vector<Object>& objects)
+ObjectChanges PlacedObjects::set(Scene& scene, const std::vector<Object>& objects)
 {
     ObjectChanges changes;
     if (objects.size() > kMostObjects)
@@ -155,29 +156,29 @@ ObjectChanges PlacedObjects::set(const std::vector<Object>& objects)
     changes.others = objects.size() != objects_.size() ||
                      !std::equal(objects.begin(), objects.end(), objects_.begin(), has_same_parts);
     if (changes.others) {
-        scene_.nodes.resize(file_.nodes);
-        scene_.vertices.resize(file_.vertices);
-        scene_.indices.resize(file_.indices);
-        scene_.draws.resize(file_.draws);
-        scene_.materials.resize(file_.materials);
-        scene_.images.resize(file_.images);
-        scene_.modelled.resize(file_.modelled);
-        for (std::size_t i = 0; i < objects.size(); ++i) append(objects[i], i);
+        scene.nodes.resize(file_.nodes);
+        scene.vertices.resize(file_.vertices);
+        scene.indices.resize(file_.indices);
+        scene.draws.resize(file_.draws);
+        scene.materials.resize(file_.materials);
+        scene.images.resize(file_.images);
+        scene.modelled.resize(file_.modelled);
+        for (std::size_t i = 0; i < objects.size(); ++i) append(scene, objects[i], i);
     } else {
         for (std::size_t i = 0; i < objects.size(); ++i) {
             const std::size_t node = node_of(i);
             if (!has_same_place(objects[i], objects_[i])) {
-                place(objects[i], node);
+                place(scene, objects[i], node);
                 changes.moved.push_back(node);
             }
             if (objects[i].material != objects_[i].material) {
-                const auto material = std::size_t(scene_.draws[scene_.nodes[node].draws.first].material);
-                scene_.materials[material] =
+                const auto material = std::size_t(scene.draws[scene.nodes[node].draws.first].material);
+                scene.materials[material] =
                     material_of(objects[i].material.value_or(ObjectMaterial{}), objects[i].source);
                 changes.materials.push_back(material);
             }
             if (objects[i].dynamic != objects_[i].dynamic) {
-                scene_.nodes[node].dynamic = objects[i].dynamic;
+                scene.nodes[node].dynamic = objects[i].dynamic;
                 changes.switched.push_back(node);
             }
         }
@@ -186,9 +187,12 @@ ObjectChanges PlacedObjects::set(const std::vector<Object>& objects)
     return changes;
 }
 
-void PlacedObjects::include_in_bounds()
+Bounds bounds_with_objects(const Scene& scene)
 {
-    for (std::size_t i = 0; i < objects_.size(); ++i) include(scene_.bounds, scene_.nodes[node_of(i)].bounds);
+    Bounds bounds = scene.bounds;
+    for (const Node& node : scene.nodes)
+        if (node.object >= 0) include(bounds, node.bounds);
+    return bounds;
 }
 
 }  // namespace conebook

@@ -59,24 +59,21 @@ struct ObjectChanges {
 };
 
 // The objects of a scene, behind all that its file holds. The scene's origin and lights stay as they are, and so does
-// its box, but for include_in_bounds(). A file gives its triangles at rest, its materials and textures; its lights,
+// its box. A file gives its triangles at rest, its materials and textures; its lights,
 // cameras and animations are left out.
 class PlacedObjects {
 public:
-    // `scene` must outlive this, and only this may change how many nodes, draws, vertices, materials and images it has.
-    explicit PlacedObjects(Scene& scene);
+    // Of a scene as its file has it. Only this may change how many nodes, draws, vertices, materials and images it has.
+    explicit PlacedObjects(const Scene& scene);
 
     // From the objects that are there to these, with as little change as that takes; the scene is then the same, bit for
     // bit, as one to which these objects are the first to come. Throws std::runtime_error, and changes nothing, for a
     // file that cannot be read and for more than kMostObjects.
-    ObjectChanges set(const std::vector<Object>& objects);
+    ObjectChanges set(Scene& scene, const std::vector<Object>& objects);
 
     const std::vector<Object>& objects() const { return objects_; }
     std::size_t node_of(std::size_t object) const { return file_.nodes + object; }
     std::size_t file_images() const { return file_.images; }
-    // Makes Scene::bounds hold them.
-    void include_in_bounds();
-
 private:
     struct Sizes {
         std::size_t nodes, vertices, indices, draws, materials, images, modelled;
@@ -91,13 +88,14 @@ private:
         std::vector<Image> images;
     };
     const Model& model(const std::string& source, std::vector<std::string>& notes);
-    void append(const Object& object, std::size_t number);
-    void place(const Object& object, std::size_t node);
+    void append(Scene& scene, const Object& object, std::size_t number) const;
 
-    Scene& scene_;
     Sizes file_;
     std::vector<Object> objects_;
     std::map<std::string, Model> models_;  // of every source that was asked for
 };
+
+// Scene::bounds and the boxes of the objects, which may stand outside them.
+Bounds bounds_with_objects(const Scene& scene);
 
 }  // namespace conebook
