@@ -64,6 +64,9 @@ CONEBOOK_CONSTANT int kRadianceAfterBinding = 2;
 CONEBOOK_CONSTANT int kLinkBinding = 4;
 CONEBOOK_CONSTANT int kChangeBinding = 6;
 CONEBOOK_CONSTANT int kAlbedoBinding = 7;
+// 15
+CONEBOOK_CONSTANT int kDynamicVoxelBinding = 1;
+CONEBOOK_CONSTANT int kDynamicCountBinding = 3;
 
 // 17: node, node brick and brick list keep their numbers; the rest is for building.
 CONEBOOK_CONSTANT int kNodeBinding = 4;
