@@ -39,9 +39,10 @@ public:
     void bind(const gl::Program& program, const ConeParams& cones, const SpecularConeParams& params, int sample) const;
 
 private:
+    void make_table();  // at the first run: scenes without a lobe have none
     gl::Shaders& shaders_;
     std::map<std::string, gl::ProgramVariants> trace_;  // by folder
-    gl::Program share_;
+    gl::ProgramVariants shares_;
     gl::VertexArray no_vertices_;
     gl::Texture directional_albedo_, lobe_light_, specular_;
     gl::Framebuffer lobe_framebuffer_, specular_framebuffer_;

@@ -22,7 +22,7 @@ std::vector<Need> soft_shadow_needs(const SoftShadowParams& params, bool has_lig
 
 SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders)
     : lighting_(shaders, {"common/fullscreen.vert", "10_soft_shadows/soft_lighting.frag"}),
-      fill_volume_(shaders.load({"10_soft_shadows/visibility_volume.comp"}))
+      fill_volume_(shaders, {"10_soft_shadows/visibility_volume.comp"})
 {
 }
 
@@ -38,7 +38,7 @@ void SoftShadowLighting::fill_volume(const VoxelGrid& grid, const VoxelFaces& fa
     faces.bind();
     shading.visibility().bind(GL_SHADER_STORAGE_BUFFER, shared::kVisibilityBinding);
     visibility_volume_.bind_image(0, 0, GL_WRITE_ONLY);
-    fill_volume_.use();
+    fill_volume_.with({}).use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, faces.face_groups().id());
     glDispatchComputeIndirect(0);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);

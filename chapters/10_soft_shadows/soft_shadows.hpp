@@ -39,12 +39,13 @@ public:
     const gl::Texture& run(const GBuffer& g_buffer, const GpuScene& scene, const ConeVolumes& volumes,
                            const VoxelFaces& faces, const VoxelShading& shading, const ShadowMaps& shadow_maps,
                            const ConeParams& cones, const SoftShadowParams& params, bool show_visibility);
+    // What run() does first where pixels ask for it.
+    void fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
     std::vector<gl::Resource> resources() const;
 
 private:
-    void fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
     gl::ProgramVariants lighting_;
-    gl::Program fill_volume_;
+    gl::ProgramVariants fill_volume_;
     gl::VertexArray no_vertices_;
     gl::Texture visibility_volume_, color_;
     gl::Framebuffer framebuffer_;

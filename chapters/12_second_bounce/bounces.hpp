@@ -17,6 +17,9 @@ struct BounceParams {
 };
 void add_parameters(ParameterTable& table, BounceParams& params);
 
+// Light goes from voxel to voxel before cones gather it.
+inline bool goes_round(const BounceParams& params) { return params.bounces < 0 || params.bounces > 1; }
+
 // R(k) = R(0) + rho (mean of R(k - 1) over the links + what emitters send + what the sky sends): R(0) is what chapter 06's
 // faces reflect of direct light. The links depend on the scene alone, so a bounce is one look-up a link (the transport
 // matrix of radiosity, with one entry a link: Cohen & Wallace 1993, section 5.3).

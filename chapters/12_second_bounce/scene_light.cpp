@@ -24,18 +24,24 @@ SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene
 
 void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan)
 {
+    scene_revision_ = scene.geometry_revision() + scene.lights_revision();
     if (params_.voxels.update == int(Update::always)) shadow_maps_.forget();
     // What the lights see, if pixels or voxels ask.
     if (plan.shadow_maps.used)
         app.pass("shadow maps", Scope::light, [&] { return shadow_maps_.draw(scene, params_.shadow_maps); });
 
     // Triangles -> voxels -> what their faces reflect of direct light.
+    if (!plan.voxels.used) return;
     voxels_.shade(app, scene, shadow_maps_);
 
     // Where rays may leap, and what shines.
+    if (!plan.pyramid.used) return;
     app.pass("walk volume", Scope::scene, [&] { return walk_volume_.run(voxels_.grid(), voxels_.faces()); });
     app.pass("emitters", Scope::scene,
-             [&] { return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), params_.emitters); });
+             [&] {
+                 return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), params_.emitters,
+                                      plan.makes_everything);
+             });
 
     // Faces light faces, along links that stay.
     if (plan.further_bounces.used) {
@@ -47,7 +53,7 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, c
     }
 
     // Faces -> pyramids, for the cones of the pixels.
-    if (plan.further_bounces.used)
+    if (plan.further_bounces.used && goes_round(params_.bounces))
         voxels_.filter(app, bounces_.reflected(), bounces_.revision(), emitters_.part_of_voxels());
     else
         voxels_.filter(app, emitters_.part_of_voxels());

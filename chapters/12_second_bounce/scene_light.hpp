@@ -26,8 +26,8 @@ public:
     const Emitters& emitters() const { return emitters_; }
     const Bounces& bounces() const { return bounces_; }
     ConeVolumes volumes() const { return {voxels_.grid(), voxels_.pyramid(), walk_volume_}; }
-    // Changes whenever the light in the voxels does.
-    Revision revision() const { return voxels_.pyramid().revision(); }
+    // Changes whenever the light in the voxels does, or what it is made from.
+    Revision revision() const { return voxels_.pyramid().revision() + scene_revision_; }
 
     std::vector<gl::Resource> resources() const;
     std::vector<Need> needs(const Scene& source, const GpuScene& scene) const;
@@ -40,6 +40,7 @@ private:
     WalkVolume walk_volume_;
     Emitters emitters_;
     Bounces bounces_;
+    Revision scene_revision_ = 0;  // of geometry and lights
 };
 
 }  // namespace conebook
