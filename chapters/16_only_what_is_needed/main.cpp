@@ -1,0 +1,81 @@
+// 16_only_what_is_needed: volumes, passes and cones that this picture of this scene needs, no others.
+//
+// A part x of the frame is made when something that is shown is made from it:
+//
+//     used(x) = shown(x) or used(y) for some y that reads x,     and x is not zero in this scene
+//
+// Page: docs/16_only_what_is_needed.md
+#include <iostream>
+
+#include "01_first_light/first_light.hpp"
+#include "16_only_what_is_needed/plan_lines.hpp"
+
+using namespace conebook;
+
+namespace {
+
+struct PrintParams {
+    bool print_plan = false;  // after the last frame, to the standard output
+};
+
+void add_parameters(ParameterTable& table, PrintParams& params)
+{
+    table.add("print_plan", params.print_plan, "print what the last frame took, and why");
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+try {
+    SceneLightParams scene_params;
+    CameraLightParams camera_params;
+    DisplayParams display_params;
+    NeedParams need_params;
+    PrintParams print_params;
+    ParameterTable parameters = parameters_of(need_params, print_params, scene_params, camera_params, display_params);
+
+    App app(argc, argv, {"16_only_what_is_needed", light_views(), parameters});
+
+    const GpuScene scene(app.scene());
+    app.show_meanwhile(first_light(app, scene, display_params));
+    SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params);
+    CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
+    ToneMapPass tone_map(app.shaders());
+    const SceneTraits traits = traits_of(app.scene());
+    LightPlan plan;
+
+    app.each_frame([&] {
+        // What of all that follows this picture of this scene needs.
+        plan = plan_frame(traits, {scene_params, camera_params, app.view().name}, need_params);
+
+        // What has changed of: shadow maps -> voxels -> their direct light -> all bounces -> six pyramids.
+        scene_light.run(app, scene, camera_params.cones, plan);
+
+        // What the camera sees, and what of it the lights reach.
+        camera_light.see(app, scene, plan);
+
+        // What other surfaces send: diffuse and specular cones through the pyramids.
+        camera_light.gather(app, plan);
+
+        // Their sum; the mean of many frames while nothing changes.
+        const gl::Texture& linear = camera_light.sum(app);
+
+        // Exposure, tone curve, sRGB.
+        app.show(linear, tone_map.run(linear, app.view().encoding, display_params,
+                                      data_scale(app.view(), scene.bounds())));
+    });
+
+    const std::vector<PlanLine> lines =
+        plan_lines(plan, scene_light, camera_light, scene_params, camera_params, app);
+    if (print_params.print_plan) std::cout << plan_text(lines);
+    app.statistics().set_plan(lines);
+    app.statistics().set_counts(scene_light.counts());
+    for (const auto& part : {scene.resources(), scene_light.resources(), camera_light.resources()})
+        app.statistics().add_resources(part);
+    for (const auto& needs :
+         {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene()), plan.decisions()})
+        app.statistics().add_needs(needs);
+    return app.finish();
+} catch (const std::exception& error) {
+    return conebook::report_failure(error);
+}
