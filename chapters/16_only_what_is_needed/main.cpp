@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "01_first_light/first_light.hpp"
+#include "16_only_what_is_needed/chosen_settings.hpp"
 #include "16_only_what_is_needed/plan_lines.hpp"
 
 using namespace conebook;
@@ -27,24 +28,34 @@ void add_parameters(ParameterTable& table, PrintParams& params)
 
 int main(int argc, char** argv)
 try {
-    SceneLightParams scene_params;
-    CameraLightParams camera_params;
+    SceneLightParams asked_of_scene;
+    CameraLightParams asked_of_camera;
     DisplayParams display_params;
     NeedParams need_params;
+    DemandParams demand;
     PrintParams print_params;
-    ParameterTable parameters = parameters_of(need_params, print_params, scene_params, camera_params, display_params);
+    ParameterTable parameters =
+        parameters_of(demand, need_params, print_params, asked_of_scene, asked_of_camera, display_params);
 
     App app(argc, argv, {"16_only_what_is_needed", light_views(), parameters});
 
     const GpuScene scene(app.scene());
     app.show_meanwhile(first_light(app, scene, display_params));
+    const SceneTraits traits = traits_of(app.scene());
+    ChosenSettings chosen(app.options().root / "assets" / "plan.json", app.options().scene.stem().string(), scene,
+                          traits);
+    const SceneLightParams& scene_params = chosen.scene();
+    const CameraLightParams& camera_params = chosen.camera();
     SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params);
     CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
     ToneMapPass tone_map(app.shaders());
-    const SceneTraits traits = traits_of(app.scene());
     LightPlan plan;
 
     app.each_frame([&] {
+        // The reader's settings, or those that keep to an error, to memory, to a time.
+        chosen.update(demand, {asked_of_scene, asked_of_camera, app.view().name}, need_params, app.size(),
+                      parameters.values(), app.statistics());
+
         // What of all that follows this picture of this scene needs.
         plan = plan_frame(traits, {scene_params, camera_params, app.view().name}, need_params);
 
@@ -61,19 +72,22 @@ try {
         const gl::Texture& linear = camera_light.sum(app);
 
         // Exposure, tone curve, sRGB.
-        app.show(linear, tone_map.run(linear, app.view().encoding, display_params,
-                                      data_scale(app.view(), scene.bounds())));
+        app.show(linear,
+                 tone_map.run(linear, app.view().encoding, display_params, data_scale(app.view(), scene.bounds())));
     });
 
-    const std::vector<PlanLine> lines =
-        plan_lines(plan, scene_light, camera_light, scene_params, camera_params, app);
+    std::vector<PlanLine> lines = demand_lines(chosen);
+    for (const PlanLine& line : plan_lines(plan, scene_light, camera_light, scene_params, camera_params, app))
+        lines.push_back(line);
     if (print_params.print_plan) std::cout << plan_text(lines);
     app.statistics().set_plan(lines);
-    app.statistics().set_counts(scene_light.counts());
+    std::vector<Count> counts = scene_light.counts();
+    for (const Count& count : chosen.counts()) counts.push_back(count);
+    for (const Count& count : plan_counts(lines, app)) counts.push_back(count);
+    app.statistics().set_counts(counts);
     for (const auto& part : {scene.resources(), scene_light.resources(), camera_light.resources()})
         app.statistics().add_resources(part);
-    for (const auto& needs :
-         {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene()), plan.decisions()})
+    for (const auto& needs : {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene()), plan.decisions()})
         app.statistics().add_needs(needs);
     return app.finish();
 } catch (const std::exception& error) {

@@ -26,25 +26,43 @@ std::vector<Part> parts_of(const LightPlan& plan, const SceneLight& light)
     const Need sum{"sum", true, "of what there is"};
     return {
         {"volume", plan.shadow_maps, {"shadow maps"}, {"shadow maps"}},
-        {"volume", plan.voxels, {"voxelize", "average", "voxel shading"},
+        {"volume",
+         plan.voxels,
+         {"voxelize", "average", "voxel shading"},
          {"occupancy", "fragments", "large triangles", "face index", "voxel list", "face list", "face sums", "faces",
           "block counts", "face radiance", "face visibility"}},
         {"volume", {"walk volume", plan.pyramid.used, plan.pyramid.reason}, {"walk volume"}, {"walk volume"}},
-        {"volume", with_emitters("emission pyramid", plan.pyramid), {"emitters"},
+        {"volume",
+         with_emitters("emission pyramid", plan.pyramid),
+         {"emitters"},
          {"emission pyramid", "emitter parts", "emitter triangles"}},
-        {"volume", plan.further_bounces, {"coverage of voxels", "links", "further bounces"},
+        {"volume",
+         plan.further_bounces,
+         {"coverage of voxels", "links", "further bounces"},
          {"links", "from emitters", "reflectance of faces", "radiance of faces between bounces", "reflected by faces"}},
-        {"volume", plan.pyramid, {"light pyramid"}, {"light pyramid", "coverage pyramid", "occupied voxels of all levels"}},
+        {"volume",
+         plan.pyramid,
+         {"light pyramid"},
+         {"light pyramid", "coverage pyramid", "occupied voxels of all levels"}},
         {"volume", plan.visibility_volume, {"visibility volume"}, {"visibility volume"}},
-        {"pass", always, {"g-buffer"},
+        {"pass",
+         always,
+         {"g-buffer"},
          {"g-buffer depth", "g-buffer normal", "g-buffer geometric normal", "g-buffer base colour, metallic",
           "g-buffer f0, f90", "g-buffer emission, roughness"}},
         {"pass", plan.direct_light, {"direct light"}, {"softly shadowed light"}},
-        {"pass", plan.diffuse_cones, {"diffuse cones"},
+        {"pass",
+         plan.diffuse_cones,
+         {"diffuse cones"},
          {"points", "gathered light", "indirect diffuse light", "filtered along rows", "filtered light"}},
-        {"pass", with_emitters("emitters' light", plan.diffuse_cones), {"emitters' light"},
+        {"pass",
+         with_emitters("emitters' light", plan.diffuse_cones),
+         {"emitters' light"},
          {"light arriving from emitters", "light of emitters, unshadowed", "indirect diffuse and emitters' light"}},
-        {"pass", plan.specular_cones, {"specular cones"}, {"light in the lobe", "specular light", "directional albedo"}},
+        {"pass",
+         plan.specular_cones,
+         {"specular cones"},
+         {"light in the lobe", "specular light", "directional albedo"}},
         {"pass", sum, {"composite"}, {"mean of frames"}},
     };
 }
@@ -75,7 +93,6 @@ std::vector<PlanLine> plan_lines(const LightPlan& plan, const SceneLight& scene_
 {
     std::vector<gl::Resource> resources = scene_light.resources();
     for (const gl::Resource& resource : camera_light.resources()) resources.push_back(resource);
-    // Two filters have textures of the same names: the first belongs to the diffuse cones, the others to the emitters' light.
     std::vector<PlanLine> lines;
     for (const Part& part : parts_of(plan, scene_light)) {
         PlanLine line{part.kind, part.need.name, part.need.used, 0, 0.0, part.need.reason};
@@ -111,6 +128,25 @@ std::vector<PlanLine> plan_lines(const LightPlan& plan, const SceneLight& scene_
     return lines;
 }
 
+std::vector<PlanLine> demand_lines(const ChosenSettings& chosen)
+{
+    if (!chosen.expectation()) return {};
+    const Expectation& e = *chosen.expectation();
+    return {
+        {"demand", "chosen", true, std::size_t(e.memory_mb * 1e6), e.time_ms, text_of(e.choice)},
+        {"demand", "expected error", true, 0, 0.0, number(e.error) + ", as measured in " + chosen.measured_scene()}};
+}
+
+std::vector<Count> plan_counts(const std::vector<PlanLine>& lines, App& app)
+{
+    double bytes = 0.0;
+    for (const PlanLine& line : lines)
+        if (line.kind != "demand") bytes += double(line.bytes);
+    return {{"passes that ran", double(app.statistics().last_times().size()), ""},
+            {"programs", double(app.shaders().program_count()), ""},
+            {"memory of the frame", bytes * 1e-6, "MB"}};
+}
+
 std::string plan_text(const std::vector<PlanLine>& lines)
 {
     std::string out = "plan                                    MB         ms  reason\n";
@@ -121,6 +157,7 @@ std::string plan_text(const std::vector<PlanLine>& lines)
         std::snprintf(row, sizeof row, "%-7s %-19s %-8s %7.2f %10.2f  %s\n", line.kind.c_str(), line.name.c_str(),
                       line.used ? "" : "left out", double(line.bytes) * 1e-6, line.milliseconds, line.reason.c_str());
         out += row;
+        if (line.kind == "demand") continue;  // no part of the frame
         bytes += line.bytes;
         milliseconds += line.milliseconds;
     }
