@@ -44,7 +44,6 @@ LightPlan plan_frame(const SceneTraits& scene, const FrameSettings& settings, co
         return plan;
     }
 
-    // snippet: plan
     // What the view shows.
     const bool surface = is_surface_view(settings.view), voxels = settings.view == "voxels";
     const LightParts shown = surface || voxels ? LightParts{} : parts_of_view(settings.view);
@@ -58,6 +57,7 @@ LightPlan plan_frame(const SceneTraits& scene, const FrameSettings& settings, co
     const bool asks_ambient = shown.ambient || settings.camera.composite.ao_strength > 0.0f;
     leave_out(plan.diffuse_cones, scene.has_diffuse || asks_ambient, "no material with a diffuse lobe");
 
+    // snippet: plan
     // Who reads the volumes.
     const bool cones = plan.diffuse_cones.used || plan.specular_cones.used;
     for (Need* of_pixels : {&plan.shadow_cones, &plan.visibility_volume})

@@ -8,16 +8,16 @@ _PARTS = {
     "triangles": ((0.2, 4.0), "triangles", []),
     "voxels": ((3.2, 4.0), "light in voxels", ["triangles", "maps"]),
     "links": ((6.2, 5.0), "further bounces", ["voxels"]),
-    "emission": ((6.2, 3.0), "emission pyramid", ["voxels"]),
+    "emission": ((6.2, 3.1), "emission pyramid", ["voxels"]),
     "pyramid": ((9.2, 4.0), "light pyramid", ["voxels", "links"]),
-    "surfaces": ((3.2, 1.0), "g-buffer", ["triangles"]),
+    "surfaces": ((9.2, 1.0), "g-buffer", ["triangles"]),
     "direct": ((12.2, 6.0), "direct light", ["maps", "surfaces"]),
     "diffuse": ((12.2, 4.0), "diffuse cones", ["pyramid", "surfaces"]),
     "aimed": ((12.2, 2.5), "emitters' light", ["emission", "surfaces"]),
     "specular": ((12.2, 1.0), "specular cones", ["pyramid", "surfaces"]),
     "picture": ((15.2, 4.0), "picture", ["direct", "diffuse", "aimed", "specular"]),
 }
-_SIZE = (2.2, 0.7)
+_SIZE = (2.4, 0.7)
 
 
 def _graph(title, zero):
@@ -28,7 +28,7 @@ def _graph(title, zero):
         if name not in used and name not in zero:
             used.add(name)
             asks += _PARTS[name][2]
-    d = Drawing(title, 0.0, 0.5, 17.6, 7.1, 44)
+    d = Drawing(title, 0.0, 0.5, 17.8, 7.1, 50)
     for name, (place, _, reads) in _PARTS.items():
         for other in reads:
             begin = _PARTS[other][0]
@@ -39,7 +39,7 @@ def _graph(title, zero):
         color = RED if name in zero else GREEN if name in used else GREY
         end = (place[0] + _SIZE[0], place[1] + _SIZE[1])
         d.box(place, end, color, PALE[color] if name in used or name in zero else "#ffffff", 1.6)
-        d.label((place[0] + _SIZE[0] / 2, place[1] + _SIZE[1] / 2), text, INK if name in used else color, size=14)
+        d.label((place[0] + _SIZE[0] / 2, place[1] + _SIZE[1] / 2), text, INK if name in used else color, size=13)
         if name in zero:
             d.label((place[0] + _SIZE[0] / 2, place[1] - 0.03), "zero in this scene", RED, place="below", size=12)
     return d
@@ -63,9 +63,9 @@ def choice():
                 (7.6, 1.8), (8.6, 1.0), (9.4, 1.5)]
     error, time = 2.5, 7.0
     d.line((0, error), (10.2, error), ORANGE, 1.5, "6 4")
-    d.label((10.2, error + 0.05), "error=", ORANGE, "end", "above")
+    d.label((10.2, error + 0.05), "the error", ORANGE, "end", "above")
     d.line((time, 0), (time, 5.6), BLUE, 1.5, "6 4")
-    d.label((time + 0.1, 5.4), "time_budget=", BLUE, "start")
+    d.label((time + 0.1, 5.4), "the time", BLUE, "start")
     for x, y in settings:
         d.dot((x, y), GREY, 4)
     fastest = min(p for p in settings if p[1] <= error)
