@@ -65,13 +65,13 @@ TEST(FramePlan, HoldsWhatTheViewAndTheSettingsAskFor)
     }
     s.view = "direct";
     EXPECT_EQ(used_parts(plan_of(scene, s)), (Names{"shadow maps", "direct light"}));
-    s.camera.shadows.shadows = int(ShadowMethod::cone);
+    s.camera.shadows.shadows = ShadowMethod::cone;
     EXPECT_EQ(used_parts(plan_of(scene, s)),
               (Names{"shadow maps", "light in voxels", "light pyramid", "direct light", "shadow cones"}));
-    s.scene.voxels.shading.voxel_shadows = int(VoxelShadows::none);
+    s.scene.voxels.shading.voxel_shadows = VoxelShadows::none;
     EXPECT_EQ(used_parts(plan_of(scene, s)),
               (Names{"light in voxels", "light pyramid", "direct light", "shadow cones"}));
-    s.camera.shadows.shadows = int(ShadowMethod::volume);
+    s.camera.shadows.shadows = ShadowMethod::volume;
     EXPECT_EQ(used_parts(plan_of(scene, s)), (Names{"visibility volume", "light in voxels", "direct light"}));
     s = {};
     s.view = "voxels";
@@ -170,8 +170,8 @@ TEST(OnlyWhatIsNeeded, GivesTheBitsOfEverything)
 TEST(OnlyWhatIsNeeded, LambertianSceneWithoutMapsRunsThesePasses)
 {
     FrameParams start = Frames::small();
-    start.camera.shadows.shadows = int(ShadowMethod::cone);
-    start.scene.voxels.shading.voxel_shadows = int(VoxelShadows::hard_ray);
+    start.camera.shadows.shadows = ShadowMethod::cone;
+    start.scene.voxels.shading.voxel_shadows = VoxelShadows::hard_ray;
     Frames frames(asset("cornell_box"), start);
     frames.make_plan = [](const SceneTraits& traits, const FrameParams& p) {
         return plan_frame(traits, {p.scene, p.camera, "final"}, {});

@@ -47,7 +47,7 @@ void CameraLight::see(App& app, const GpuScene& scene, const LightPlan& plan)
     sample_ = app.sample(params_.accumulation.accumulate, light_.revision());
     g_buffer_.resize(app.size());
     app.pass("g-buffer", [&] { g_buffer_.draw(scene, app.camera()); });
-    if (plan.makes_everything && params_.shadows.shadows != int(ShadowMethod::volume))
+    if (plan.makes_everything && params_.shadows.shadows != ShadowMethod::volume)
         app.pass("visibility volume", [&] {
             direct_lighting_.fill_volume(light_.voxels().grid(), light_.voxels().faces(), light_.voxels().shading());
         });

@@ -14,7 +14,7 @@ ChosenSettings::ChosenSettings(std::filesystem::path measured, std::string scene
 // What the last frame's passes took, over what was expected.
 void ChosenSettings::measure_machine(const Statistics& statistics)
 {
-    const bool always = scene_params_.voxels.update == int(Update::always);
+    const bool always = scene_params_.voxels.update == Update::always;
     double taken_ms = 0.0;
     for (const PassTime& pass : statistics.last_times())
         if (always || pass.scope == Scope::camera) taken_ms += pass.milliseconds;

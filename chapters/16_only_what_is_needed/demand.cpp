@@ -79,7 +79,7 @@ Expectation expect(const Choice& choice, const DemandInputs& inputs)
     const double pixels =
         double(inputs.size.x) * inputs.size.y / (double(inputs.measured_size.x) * inputs.measured_size.y);
     const double each_frame = times.camera_ms * std::pow(pixels, kPixelPower) +
-                              (scene.voxels.update == int(Update::always) ? times.light_ms + times.scene_ms : 0.0);
+                              (scene.voxels.update == Update::always ? times.light_ms + times.scene_ms : 0.0);
     return {choice, expected_error(inputs.measured, measured),
             expected_bytes(inputs.scene, settings, plan, inputs.size) * 1e-6, each_frame * inputs.machine};
 }

@@ -12,10 +12,10 @@ double cells_of(glm::ivec3 size) { return double(size.x) * double(size.y) * doub
 double with_levels(double cells, int levels) { return cells * (1.0 - std::pow(0.125, levels)) / (1.0 - 0.125); }
 
 // Of chapter 07's formats, with the coverage that r11g11b10f keeps apart.
-double bytes_of_texel(int format)
+double bytes_of_texel(LightFormat format)
 {
     constexpr double kBytes[] = {8.0, 4.0, 5.0};
-    return kBytes[format];
+    return kBytes[int(format)];
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ double expected_bytes(const SceneSize& scene, const FrameSettings& settings, con
     if (plan.pyramid.used) {
         const double texels = with_levels(double(shared::kFaceCount) * cells, grid.size.w);
         bytes += bytes_of_texel(settings.scene.voxels.pyramid.format) * texels + 4.0 * cells_of(grid_size + 1);
-        if (scene.emitters_apart || plan.makes_everything) bytes += bytes_of_texel(0) * texels;
+        if (scene.emitters_apart || plan.makes_everything) bytes += bytes_of_texel(LightFormat::rgba16f) * texels;
     }
     if (plan.further_bounces.used)
         bytes += faces * (4.0 * settings.scene.bounces.links + 16.0 + 4.0 + 2.0 * 8.0 + 16.0);
@@ -76,7 +76,7 @@ double expected_bytes(const SceneSize& scene, const FrameSettings& settings, con
 
     // A pixel's g-buffer, and what passes write; a point's.
     const double pixels = double(size.x) * double(size.y);
-    const bool shares = settings.camera.cones.interleave == int(Interleave::on);
+    const bool shares = settings.camera.cones.interleave == Interleave::on;
     const double points =
         pixels /
         (shares ? double(settings.camera.diffuse.gather_scale) * double(settings.camera.diffuse.gather_scale) : 1.0);

@@ -50,11 +50,14 @@ LightPlan plan_frame(const SceneTraits& scene, const FrameSettings& settings, co
     const std::string of_view = "view " + settings.view;
     leave_out(plan.direct_light, shown.direct > 0.0f, of_view);
     leave_out(plan.direct_light, scene.has_lights, "the scene has no lights but surfaces that shine");
-    leave_out(plan.diffuse_cones, shown.diffuse > 0.0f || shown.ambient, of_view);
+    // Ambient occlusion is asked for by its view, and by what ao_strength darkens.
+    const CompositeParams& sum = settings.camera.composite;
+    const bool darkens = shown.specular > 0.0f || (sum.ao_on_direct && shown.direct > 0.0f);
+    const bool asks_ambient = shown.ambient || (sum.ao_strength > 0.0f && darkens);
+    leave_out(plan.diffuse_cones, shown.diffuse > 0.0f || asks_ambient, of_view);
     leave_out(plan.specular_cones, shown.specular > 0.0f, of_view);
 
-    // Light that no surface reflects is not gathered; ao_strength asks it how open a place is.
-    const bool asks_ambient = shown.ambient || settings.camera.composite.ao_strength > 0.0f;
+    // Light that no surface reflects is not gathered.
     leave_out(plan.diffuse_cones, scene.has_diffuse || asks_ambient, "no material with a diffuse lobe");
 
     // snippet: plan
@@ -66,7 +69,7 @@ LightPlan plan_frame(const SceneTraits& scene, const FrameSettings& settings, co
     leave_out(plan.further_bounces, cones || voxels, nobody);
     leave_out(plan.pyramid, cones || voxels || plan.shadow_cones.used, nobody);
     leave_out(plan.voxels, plan.pyramid.used || plan.visibility_volume.used, nobody);
-    const bool voxels_ask = settings.scene.voxels.shading.voxel_shadows == int(VoxelShadows::map);
+    const bool voxels_ask = settings.scene.voxels.shading.voxel_shadows == VoxelShadows::map;
     leave_out(plan.shadow_maps,
               (plan.direct_light.used && asks_shadow_maps(shadows)) || (plan.voxels.used && voxels_ask),
               "neither pixels nor voxels ask");

@@ -72,14 +72,14 @@ const std::vector<ChoiceField>& choice_fields()
 Choice choice_of(const SceneLightParams& scene, const CameraLightParams& camera)
 {
     return {scene.voxels.grid.voxels, camera.cones.cones,         camera.diffuse.gather_scale,
-            scene.bounces.bounces,    scene.voxels.pyramid.format, scene.shadow_maps.shadow_map_size};
+            scene.bounces.bounces,    int(scene.voxels.pyramid.format), scene.shadow_maps.shadow_map_size};
 }
 
 void apply(const Choice& choice, SceneLightParams& scene, CameraLightParams& camera)
 {
     scene.voxels.grid.voxels = choice.voxels;
     scene.bounces.bounces = choice.bounces;
-    scene.voxels.pyramid.format = choice.format;
+    scene.voxels.pyramid.format = LightFormat(choice.format);
     scene.shadow_maps.shadow_map_size = choice.shadow_map_size;
     camera.cones.cones = choice.cones;
     camera.diffuse.gather_scale = choice.gather_scale;

@@ -110,7 +110,7 @@ std::vector<PlanLine> plan_lines(const LightPlan& plan, const SceneLight& scene_
         lines.push_back({"choice", name, used, bytes, 0.0, reason});
     };
     constexpr const char* kFormats[] = {"rgba16f, 8 bytes", "rgba8, 4 bytes", "r11g11b10f and r8, 5 bytes"};
-    const int format = scene_params.voxels.pyramid.format;
+    const int format = int(scene_params.voxels.pyramid.format);
     choice("format", plan.pyramid.used, 0, std::string(kFormats[format]) + " a texel of a pyramid");
     if (plan.voxels.used) lines.push_back(directions_line(scene_light));
     choice("levels", plan.pyramid.used, 0,
@@ -119,7 +119,7 @@ std::vector<PlanLine> plan_lines(const LightPlan& plan, const SceneLight& scene_
     choice("voxels", plan.voxels.used, 0,
            std::to_string(size.x) + " x " + std::to_string(size.y) + " x " + std::to_string(size.z) + " of " +
                number(grid.voxel_size_m()) + " m");
-    const bool shared = camera_params.cones.interleave == int(Interleave::on);
+    const bool shared = camera_params.cones.interleave == Interleave::on;
     const int scale = shared ? camera_params.diffuse.gather_scale : 1;
     choice("resolution", plan.diffuse_cones.used, 0,
            "one of " + std::to_string(scale * scale) + " pixels gathers, by " +
