@@ -22,6 +22,8 @@ void add_parameters(ParameterTable& table, ConeParams& params)
               "march: how coverages add up");
     table.add("side_weights", params.side_weights, {"projected", "squared"}, "march: of a voxel's sides, |d| or d^2");
     table.add("ao_falloff", params.ao_falloff, 0.0, 100.0, "1/m", "ambient occlusion: 1 / (1 + this * distance)");
+    table.add("range_diffuse", params.range_diffuse, 0.0, 1e6, "m", "how far diffuse cones see; 0: to the bounds");
+    table.add("range_ao", params.range_ao, 0.0, 1e6, "m", "how far ambient occlusion sees; 0: to the bounds");
     table.add("sky", params.sky, 0.0, 1e4, "W/sr/m2", "radiance of what cones see that leave the grid");
 }
 
@@ -41,6 +43,8 @@ void set_cones(const gl::Program& program, const ConeParams& params)
 {
     program.set("step_factor", params.step);
     program.set("ao_falloff", params.ao_falloff);
+    program.set("range_diffuse", params.range_diffuse);
+    program.set("range_ao", params.range_ao);
     program.set("transmittance_model", int(params.transmittance));
     program.set("squared_weights", params.side_weights == SideWeights::squared);
     program.set("sky_radiance", glm::vec3(params.sky));

@@ -44,6 +44,9 @@ struct ConeParams {
     SideWeights side_weights = SideWeights::projected;
     // Ambient occlusion falls off as 1 / (1 + lambda r), lambda in 1/m, 0 .. 100.
     float ao_falloff = 1.0f;
+    // How far cones that leap see surfaces, for light and for ambient occlusion, in m, 0 .. 1e6; 0: to the bounds. Links of
+    // faces go to the bounds.
+    float range_diffuse = 0.0f, range_ao = 0.0f;
     // Constant radiance of the sky, W/(sr m^2), 0 .. 1e4: what cones see that leave the grid.
     float sky = 0.0f;
     bool operator==(const ConeParams&) const = default;

@@ -15,6 +15,7 @@ void add_parameters(ParameterTable& table, SpecularConeParams& params)
     table.add("lobe_share", params.lobe_share, 0.1, 0.95, "", "share of the GGX lobe that the specular cone holds");
     table.add("specular_start", params.specular_start, 0.0, 8.0, "voxels",
               "from the surface to the specular cone's start");
+    table.add("range_specular", params.range_specular, 0.0, 1e6, "m", "how far specular cones see; 0: to the bounds");
 }
 
 SpecularCones::SpecularCones(gl::Shaders& shaders)
@@ -40,6 +41,7 @@ void SpecularCones::bind(const gl::Program& program, const ConeParams& cones, co
     program.set("interleave", cones.interleave == Interleave::on);
     program.set("specular_cones", params.specular_cones);
     program.set("lobe_share", params.lobe_share);
+    program.set("range_specular", params.range_specular);
     constexpr float kGoldenAngle_rad = 2.39996323f;
     program.set("turn", std::fmod(float(sample) * kGoldenAngle_rad, 2.0f * glm::pi<float>()));
 }

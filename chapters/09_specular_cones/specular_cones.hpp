@@ -17,6 +17,8 @@ struct SpecularConeParams {
     // Voxels from the middle of the surface's own voxel to the cone's start, 0 .. 8: a narrow cone that starts nearer shows
     // the voxels of its own surface as a pattern.
     float specular_start = 1.5f;
+    // How far they see surfaces, m, 0 .. 1e6; 0: to the bounds.
+    float range_specular = 0.0f;
     bool operator==(const SpecularConeParams&) const = default;
 };
 void add_parameters(ParameterTable& table, SpecularConeParams& params);

@@ -9,6 +9,7 @@ void add_parameters(ParameterTable& table, SoftShadowParams& params)
     table.add("shadows", params.shadows, {"map", "cone", "volume"}, "how direct light is shadowed");
     table.add("light_radius", params.light_radius, 0.001, 10.0, "m", "radius of point and spot lights, for cones");
     table.add("light_angle", params.light_angle, 0.05, 60.0, "deg", "full angle of directional lights, for cones");
+    table.add("range_shadow", params.range_shadow, 0.0, 1e6, "m", "how far cones look for shadows; 0: to the light");
     table.add("shadow_cones", params.shadow_cones, 1, 64, "cones", "to each light, each thin");
 }
 
@@ -64,6 +65,7 @@ const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuSce
     lighting.set("light_radius", params.light_radius);
     lighting.set("light_half_angle", glm::radians(0.5f * params.light_angle));
     lighting.set("shadow_cones", params.shadow_cones);
+    lighting.set("range_shadow", params.range_shadow);
     lighting.set("show_visibility", show_visibility);
     gl::draw_pixels(lighting, framebuffer_, no_vertices_, g_buffer.size());
     return color_;

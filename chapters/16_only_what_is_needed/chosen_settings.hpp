@@ -11,7 +11,8 @@ class ChosenSettings {
 public:
     // `measured`: what tools/plan_data.py wrote; read when something is demanded for the first time. `scene_name`: of the
     // scene's file, without folder and extension.
-    ChosenSettings(std::filesystem::path measured, std::string scene_name, const GpuScene& scene, const SceneTraits& traits);
+    ChosenSettings(std::filesystem::path measured, std::string scene_name, const GpuScene& scene,
+                   const SceneTraits& traits);
 
     // Once a frame, before its passes: `scene` and `camera` become what is `asked` for, with what the demand decides. Chosen
     // anew when one of these has changed, and once when two frames have told how fast this machine is (in the first one

@@ -29,8 +29,8 @@ struct DemandInputs {
     const SceneTraits& traits;
     const FrameSettings& settings;
     const NeedParams& needs;
-    glm::ivec2 size;          // of the picture
-    double machine = 1.0;     // time here over time where the settings were measured
+    glm::ivec2 size;       // of the picture
+    double machine = 1.0;  // time here over time where the settings were measured
 };
 
 // Of one choice.

@@ -8,10 +8,10 @@ namespace conebook {
 // What of a scene decides about memory.
 struct SceneSize {
     Bounds bounds;
-    std::size_t triangles = 0, bytes = 0;              // bytes: of triangles, textures, materials
-    double box_sides_m = 0.0, seen_areas_m2 = 0.0;     // sums over triangles, see MaterialUse
+    std::size_t triangles = 0, bytes = 0;           // bytes: of triangles, textures, materials
+    double box_sides_m = 0.0, seen_areas_m2 = 0.0;  // sums over triangles, see MaterialUse
     std::size_t shadow_maps = 0;
-    bool emitters_apart = false;                       // rays are aimed at them
+    bool emitters_apart = false;  // rays are aimed at them
 };
 SceneSize size_of(const GpuScene& scene, const SceneTraits& traits);
 

@@ -84,6 +84,11 @@ try {
     std::vector<Count> counts = scene_light.counts();
     for (const Count& count : chosen.counts()) counts.push_back(count);
     for (const Count& count : plan_counts(lines, app)) counts.push_back(count);
+    const double draws = double(scene.draw_count()), maps = double(scene_light.shadow_maps().layers());
+    counts.push_back({"draws of the scene", draws, ""});
+    counts.push_back({"draws for the camera", double(camera_light.g_buffer().drawn()), ""});
+    counts.push_back({"draws for the shadow maps", double(scene_light.shadow_maps().draws()), ""});
+    counts.push_back({"draws for the shadow maps, of all objects", draws * maps, ""});
     app.statistics().set_counts(counts);
     for (const auto& part : {scene.resources(), scene_light.resources(), camera_light.resources()})
         app.statistics().add_resources(part);

@@ -71,8 +71,9 @@ const std::vector<ChoiceField>& choice_fields()
 
 Choice choice_of(const SceneLightParams& scene, const CameraLightParams& camera)
 {
-    return {scene.voxels.grid.voxels, camera.cones.cones,         camera.diffuse.gather_scale,
-            scene.bounces.bounces,    int(scene.voxels.pyramid.format), scene.shadow_maps.shadow_map_size};
+    return {scene.voxels.grid.voxels,         camera.cones.cones,
+            camera.diffuse.gather_scale,      scene.bounces.bounces,
+            int(scene.voxels.pyramid.format), scene.shadow_maps.shadow_map_size};
 }
 
 void apply(const Choice& choice, SceneLightParams& scene, CameraLightParams& camera)
@@ -110,8 +111,10 @@ MeasuredSettings read_measured_settings(const std::filesystem::path& file)
             scene.name = entry.at("name");
             for (const auto& row : entry.at("rows")) {
                 const Measured measured = measured_of(row, baseline);
-                if (measured.choice == baseline) scene.baseline = measured;
-                else (row.at("together") ? scene.together : scene.alone).push_back(measured);
+                if (measured.choice == baseline)
+                    scene.baseline = measured;
+                else
+                    (row.at("together") ? scene.together : scene.alone).push_back(measured);
             }
             if (scene.baseline.ms.empty()) throw std::runtime_error("no baseline of " + scene.name);
             all.scenes.push_back(scene);

@@ -29,14 +29,14 @@ const std::vector<ChoiceField>& choice_fields();
 
 struct Measured {
     Choice choice;
-    double error = 0.0;  // SMAPE of the final picture against the path tracer, blocks of 4 x 4 pixels
-    std::map<std::string, double> ms;       // by pass
-    std::map<std::string, Scope> scopes;    // the same passes
+    double error = 0.0;                   // SMAPE of the final picture against the path tracer, blocks of 4 x 4 pixels
+    std::map<std::string, double> ms;     // by pass
+    std::map<std::string, Scope> scopes;  // the same passes
     std::size_t bytes = 0;
     double fragments = 0.0, faces = 0.0;
 };
 struct MeasuredScene {
-    std::string name;                // of the file, without folder and extension
+    std::string name;  // of the file, without folder and extension
     Measured baseline;
     std::vector<Measured> alone;     // one field differs from the baseline's
     std::vector<Measured> together;  // more than one: for tests of what is expected of them

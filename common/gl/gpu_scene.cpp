@@ -58,8 +58,7 @@ gl::Texture upload_rgba8(const Image& image, GLenum format)
     gl::Texture texture = gl::texture_2d(image.name.empty() ? "texture" : image.name, format,
                                          {image.width, image.height}, level_count(image.width, image.height));
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                        image.rgba.data());
+    glTextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
     glGenerateTextureMipmap(texture.id());  // averages sRGB formats in linear light (OpenGL 4.5, 8.24)
     return texture;
 }
@@ -98,6 +97,25 @@ GLuint make_sampler(const TextureSlot& slot)
 }
 
 }  // namespace
+
+// snippet: is_outside
+bool is_outside(const Bounds& box, const glm::mat4& clip_from_scene)
+{
+    // The sides are sums and differences of the rows (Gribb & Hartmann 2001): -w <= x, y <= w and 0 <= z <= w.
+    const glm::dmat4 rows(glm::transpose(clip_from_scene));
+    for (const glm::dvec4& side :
+         {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[2], rows[3] - rows[2]}) {
+        bool beyond = true;
+        for (int i = 0; i < 8 && beyond; ++i) {
+            const glm::dvec4 corner(glm::dvec3(box.corner(i)), 1.0);
+            constexpr double kRounding = 1e-5;  // of a sum of four floats, and more
+            beyond = glm::dot(side, corner) < -kRounding * glm::dot(glm::abs(side), glm::abs(corner));
+        }
+        if (beyond) return true;
+    }
+    return false;
+}
+// end snippet
 
 shared::LightData light_data(const Light& light)
 {
@@ -143,6 +161,17 @@ shared::CameraData moved(const shared::CameraData& camera, glm::vec2 pixels)
 }
 
 namespace {
+std::optional<Bounds> bounds_of(const Scene& scene, const Draw& draw)
+{
+    if (draw.index_count == 0) return {};
+    Bounds box{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
+    for (std::uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; ++i) {
+        box.min = glm::min(box.min, scene.vertices[scene.indices[i]].position);
+        box.max = glm::max(box.max, scene.vertices[scene.indices[i]].position);
+    }
+    return box;
+}
+
 gl::Buffer light_buffer(const std::vector<Light>& lights)
 {
     std::vector<shared::LightData> data;
@@ -165,6 +194,9 @@ GpuScene::GpuScene(const Scene& scene)
         materials.push_back(material_data(m));
         has_emission_ = has_emission_ || m.shines();
     }
+    for (const Draw& draw : draws_) boxes_.push_back(bounds_of(scene, draw));
+    for (const Node& node : scene.nodes)
+        for (std::uint32_t d = node.draws.first; d < node.draws.end() && node.dynamic; ++d) boxes_[d].reset();
     for (const Node& node : scene.nodes) may_move_ = may_move_ || (node.dynamic && node.vertices.count > 0);
     material_buffer_ = gl::Buffer("materials", materials);
     material_uses_.resize(materials.size());
@@ -216,8 +248,8 @@ GpuScene::GpuScene(const Scene& scene)
             if (!slots[s]->present()) continue;
             const auto [entry, is_new] = uploaded.try_emplace({slots[s]->image, is_srgb(s)}, int(textures_.size()));
             if (is_new)
-                textures_.push_back(upload_rgba8(scene.images[std::size_t(slots[s]->image)],
-                                                 is_srgb(s) ? GL_SRGB8_ALPHA8 : GL_RGBA8));
+                textures_.push_back(
+                    upload_rgba8(scene.images[std::size_t(slots[s]->image)], is_srgb(s) ? GL_SRGB8_ALPHA8 : GL_RGBA8));
             bindings[s].texture = entry->second;
             bindings[s].sampler = gl::Handle<gl::delete_sampler>(make_sampler(*slots[s]));
         }
@@ -264,19 +296,23 @@ void unbind_samplers()
 }
 }  // namespace
 
-void GpuScene::draw(const gl::Program& program, Culling culling) const
+std::size_t GpuScene::draw(const gl::Program& program, Culling culling, const glm::mat4* clip_from_scene) const
 {
+    std::size_t drawn = 0;
     program.use();
     bind_lights(program);
     glBindVertexArray(vertex_array_.id());
     glCullFace(GL_BACK);
     int bound_material = -1;
-    for (const Draw& draw : draws_) {
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+        const Draw& draw = draws_[i];
+        if (clip_from_scene != nullptr && boxes_[i] && is_outside(*boxes_[i], *clip_from_scene)) continue;
+        ++drawn;
         if (draw.material != bound_material) {
             bound_material = draw.material;
             bind_material(std::size_t(draw.material));
-            const bool cull = culling == Culling::back_of_single_sided &&
-                              !materials_[std::size_t(draw.material)].double_sided;
+            const bool cull =
+                culling == Culling::back_of_single_sided && !materials_[std::size_t(draw.material)].double_sided;
             (cull ? glEnable : glDisable)(GL_CULL_FACE);
         }
         glDrawElements(GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT,
@@ -284,6 +320,7 @@ void GpuScene::draw(const gl::Program& program, Culling culling) const
     }
     glDisable(GL_CULL_FACE);
     unbind_samplers();
+    return drawn;
 }
 
 void GpuScene::draw_geometry(const gl::Program& program) const

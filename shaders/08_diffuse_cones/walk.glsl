@@ -26,6 +26,10 @@ const float kSheetBlur = 1.5;
 // Rays end this far before a side, so that rounding does not carry them over it.
 const float kBeforeSide = 1e-3;
 
+// Ways end here where nothing else ends them, voxels; range_m: 0 for none (chapter 16).
+const float kNoRange = 1e30;
+float reach_of(float range_m) { return range_m > 0.0 ? range_m / grid.origin.w : kNoRange; }
+
 // Where rays of a surface begin.
 struct RayStart {
     vec3 position;  // grid space
@@ -147,10 +151,10 @@ struct WalkEnd {
     float t;  // voxels
 };
 
-WalkEnd walk(RayStart start, vec3 direction, float threshold)
+WalkEnd walk(RayStart start, vec3 direction, float threshold, float reach)
 {
     WalkRay ray = walk_ray(start.position, direction);
-    float exit = exit_distance(start.position, direction, 0.0), end = exit - kBeforeSide;
+    float exit = min(exit_distance(start.position, direction, 0.0), reach), end = exit - kBeforeSide;
     float own_end = min(own_blur_end(start, direction), end);
     float t = 0.0, covered = 0.0, run = 0.0, run_t = 0.0;
     // snippet: walk
@@ -176,8 +180,10 @@ WalkEnd walk(RayStart start, vec3 direction, float threshold)
     }
     // end snippet
     if (covered >= threshold) return WalkEnd(true, run_t / max(run, 1e-6));
-    return WalkEnd(closed_at(ray, start.position, exit), exit);
+    return WalkEnd(exit < reach && closed_at(ray, start.position, exit), exit);
 }
+
+WalkEnd walk(RayStart start, vec3 direction, float threshold) { return walk(start, direction, threshold, kNoRange); }
 
 // Share of a ray that surfaces stop on the way to `end`. In a slanted wall the staircase of its voxels leaves some rays
 // a third too little. But what enters a solid leaves it again, at a place of another phase: the larger of both sums is
