@@ -1,5 +1,7 @@
 #include "07_anisotropic_mips/lit_voxels.hpp"
 
+#include <utility>
+
 namespace conebook {
 
 void add_parameters(ParameterTable& table, LitVoxelParams& params)
@@ -11,13 +13,14 @@ void add_parameters(ParameterTable& table, LitVoxelParams& params)
     table.add("update", params.update, {"on_change", "always"}, "when passes run that do not depend on the camera");
 }
 
-LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params)
+LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params,
+                     LightStorage storage)
     : params_(params),
       grid_(scene.bounds(), params.grid, shared::kFaceCount),
       voxelizer_(shaders),
       faces_(shaders, voxelizer_),
       shading_(shaders),
-      pyramid_(shaders)
+      pyramid_(shaders, std::move(storage))
 {
 }
 

@@ -20,8 +20,8 @@ void add_parameters(ParameterTable& table, LitVoxelParams& params);
 
 class LitVoxels {
 public:
-    // `params` must outlive this.
-    LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params);
+    // `params` must outlive this. `storage`: of the pyramid, where params.pyramid.storage > 0.
+    LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params, LightStorage storage = {});
     // What the faces reflect of the light that comes straight from the lights.
     void shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps);
     // What the voxels cover, without light: for rays that start before the light is known.

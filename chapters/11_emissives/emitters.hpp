@@ -17,13 +17,17 @@ void add_parameters(ParameterTable& table, EmitterParams& params);
 
 class Emitters {
 public:
-    // `scene` must outlive this.
-    Emitters(gl::Shaders& shaders, const Scene& scene) : scene_(scene), pyramid_(shaders) {}
+    // `scene` must outlive this. `storage`: of the pyramid of emission, as of that of the voxels.
+    Emitters(gl::Shaders& shaders, const Scene& scene, LightStorage storage = {})
+        : scene_(scene), pyramid_(shaders, std::move(storage))
+    {
+    }
 
     // What shines, and a pyramid of it, if the faces or a parameter have changed; says whether there is anything. Emission is
     // kept apart where it is worth it: where something shines, and not so much of the scene that cones meet it as well as
-    // aimed rays would.
-    bool run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading, const EmitterParams& params);
+    // aimed rays would. `storage`: PyramidParams::storage.
+    bool run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading, const EmitterParams& params,
+             int storage = 0);
     Revision revision() const { return revision_; }
 
     // All of the following is of the last run.
@@ -53,7 +57,7 @@ private:
     LightPyramid pyramid_;
     gl::Buffer parts_, triangles_;
     MadeFrom<Revision, EmitterParams> parts_made_from_;  // grid
-    MadeFrom<Revision, EmitterParams> made_from_;        // faces
+    MadeFrom<Revision, EmitterParams, int> made_from_;   // faces, storage
     Revision revision_ = 0;
 };
 

@@ -12,12 +12,13 @@ void add_parameters(ParameterTable& table, SceneLightParams& params)
     add_parameters(table, params.shadow_maps);
 }
 
-SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params)
+SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params,
+                       const LightStorage& storage)
     : params_(params),
       shadow_maps_(shaders),
-      voxels_(shaders, scene, params.voxels),
+      voxels_(shaders, scene, params.voxels, storage),
       walk_volume_(shaders),
-      emitters_(shaders, source),
+      emitters_(shaders, source, storage),
       bounces_(shaders)
 {
 }
@@ -34,8 +35,10 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, c
 
     // Where rays may leap, and what shines.
     app.pass("walk volume", Scope::scene, [&] { return walk_volume_.run(voxels_.grid(), voxels_.faces()); });
-    app.pass("emitters", Scope::scene,
-             [&] { return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), params_.emitters); });
+    app.pass("emitters", Scope::scene, [&] {
+        return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), params_.emitters,
+                             params_.voxels.pyramid.storage);
+    });
 
     // Faces light faces, along links that stay.
     if (plan.further_bounces.used) {

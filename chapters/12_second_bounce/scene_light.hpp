@@ -16,8 +16,9 @@ void add_parameters(ParameterTable& table, SceneLightParams& params);
 
 class SceneLight {
 public:
-    // `shaders`, `source` and `params` must outlive this.
-    SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params);
+    // `shaders`, `source` and `params` must outlive this. `storage`: of the pyramids, where params.voxels.pyramid.storage > 0.
+    SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params,
+               const LightStorage& storage = {});
 
     void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan);
 
