@@ -27,10 +27,10 @@ void add_parameters(ParameterTable& table, DiffuseConeParams& params)
     table.add_values("gather_scale", params.gather_scale, {1, 2, 4}, "one of so many pixels along a side gathers");
 }
 
-gl::Defines cone_defines(const ConeParams& params, const LightPyramid& pyramid)
+gl::Defines cone_defines(const ConeParams& params, const ConeVolumes& volumes)
 {
-    gl::Defines defines = {{"MARCH", params.walk == int(ConeWalk::march) ? "1" : "0"}};
-    defines.merge(pyramid.defines());
+    gl::Defines defines = volumes.defines();
+    defines["MARCH"] = std::to_string(params.walk == int(ConeWalk::march));
     return defines;
 }
 
@@ -93,6 +93,13 @@ void ConeVolumes::bind() const
     walk.bind();
 }
 
+gl::Defines ConeVolumes::defines() const
+{
+    gl::Defines all = pyramid.defines();
+    all.insert(walk.defines().begin(), walk.defines().end());
+    return all;
+}
+
 DiffuseCones::DiffuseCones(gl::Shaders& shaders)
     : points_(shaders),
       gather_(shaders, {"common/fullscreen.vert", "08_diffuse_cones/gather.frag"}),
@@ -112,7 +119,7 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes&
     // Every point gathers by its own set of cones.
     gl::fit_to_pixels(gathered_, gathered_framebuffer_, "gathered light", GL_RGBA32F, points_.size());
     volumes.bind();
-    const gl::Program& gather = gather_.with(cone_defines(cones, volumes.pyramid));
+    const gl::Program& gather = gather_.with(cone_defines(cones, volumes));
     points_.bind(gather);
     directions.bind(gather, cones);
     gl::draw_pixels(gather, gathered_framebuffer_, no_vertices_, points_.size());
@@ -123,7 +130,7 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes&
 
     // Pixels take from the points around them.
     gl::fit_to_pixels(light_, light_framebuffer_, "indirect diffuse light", GL_RGBA32F, g_buffer.size());
-    const gl::Program& upsample = upsample_.with(cone_defines(cones, volumes.pyramid));
+    const gl::Program& upsample = upsample_.with(cone_defines(cones, volumes));
     points_.bind(upsample);
     directions.bind(upsample, cones);
     filtered.bind(17);

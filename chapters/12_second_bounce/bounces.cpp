@@ -42,7 +42,7 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     voxels.pyramid().bind();
     walk.bind();
     gl::Defines defines = {{"MARCH", "0"}, {"EMITTERS", emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0"}};
-    defines.merge(voxels.pyramid().defines());
+    defines.merge(ConeVolumes{voxels.grid(), voxels.pyramid(), walk}.defines());
     defines.merge(emitters.defines());
     const gl::Program& link = link_.with(defines);
     ConeParams rays = cones;

@@ -13,12 +13,12 @@ void add_parameters(ParameterTable& table, SceneLightParams& params)
 }
 
 SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params,
-                       const LightStorage& storage)
+                       const SceneStorages& storages)
     : params_(params),
       shadow_maps_(shaders),
-      voxels_(shaders, scene, params.voxels, storage),
-      walk_volume_(shaders),
-      emitters_(shaders, source, storage),
+      voxels_(shaders, scene, params.voxels, storages.light),
+      walk_volume_(shaders, storages.walk),
+      emitters_(shaders, source, storages.light),
       bounces_(shaders)
 {
 }
@@ -34,10 +34,10 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, c
     voxels_.shade(app, scene, shadow_maps_);
 
     // Where rays may leap, and what shines.
-    app.pass("walk volume", Scope::scene, [&] { return walk_volume_.run(voxels_.grid(), voxels_.faces()); });
+    const int storage = params_.voxels.pyramid.storage;
+    app.pass("walk volume", Scope::scene, [&] { return walk_volume_.run(voxels_.grid(), voxels_.faces(), storage); });
     app.pass("emitters", Scope::scene, [&] {
-        return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), params_.emitters,
-                             params_.voxels.pyramid.storage);
+        return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), params_.emitters, storage);
     });
 
     // Faces light faces, along links that stay.

@@ -2,32 +2,9 @@
 
 #include <stdexcept>
 
-#include "16_only_what_is_needed/brick_structs.glsl"
+#include "16_only_what_is_needed/brick_list.hpp"
 
 namespace conebook {
-
-void add_storage_parameter(ParameterTable& table, PyramidParams& params)
-{
-    table.add("storage", params.storage, {"dense", "bricks"}, "volumes for all voxels, or lists of those that hold something");
-}
-
-namespace {
-
-// A list as a texture: rows of kListWidth.
-glm::ivec2 list_size(std::size_t items)
-{
-    return {shared::kListWidth, int((items + shared::kListWidth - 1) / shared::kListWidth)};
-}
-
-// Keeps the texture where it has the size.
-void fit_list(gl::Texture& texture, const char* label, GLenum format, std::size_t items)
-{
-    const glm::ivec2 size = list_size(items);
-    if (!texture || texture.size() != glm::ivec3(size, 1) || texture.format() != format)
-        texture = gl::texture_2d(label, format, size);
-}
-
-}  // namespace
 
 BrickIndex::BrickIndex(gl::Shaders& shaders)
     : mark_(shaders, {"16_only_what_is_needed/brick_mark.comp"}),
@@ -109,11 +86,6 @@ void BrickLight::fit(LightTexels& texels, const VoxelGrid& grid, const VoxelFace
     }
     texels.defines = {{"LIGHT_STORAGE", "16_only_what_is_needed/brick_light.glsl"}};
     texels.index = {{GLuint(shared::kBrickUnit), &index_.bricks()}, {GLuint(shared::kBrickVoxelUnit), &index_.voxels()}};
-}
-
-std::vector<gl::Resource> BrickLight::resources() const
-{
-    return params_.storage == int(VoxelStorage::bricks) ? index_.resources() : std::vector<gl::Resource>{};
 }
 
 }  // namespace conebook

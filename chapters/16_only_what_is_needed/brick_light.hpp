@@ -10,7 +10,6 @@ namespace conebook {
 
 // dense: a texel for every voxel. bricks: for the voxels that hold something.
 enum class VoxelStorage : int { dense = 0, bricks = 1 };
-void add_storage_parameter(ParameterTable& table, PyramidParams& params);
 
 // Which voxels of all levels hold something, and of which sides: shaders/16_only_what_is_needed/brick_index.glsl.
 class BrickIndex {
@@ -47,7 +46,6 @@ public:
                       const PyramidParams& params) { fit(texels, grid, faces, occupied, params); };
     }
     const BrickIndex& index() const { return index_; }
-    std::vector<gl::Resource> resources() const;
 
 private:
     void fit(LightTexels& texels, const VoxelGrid& grid, const VoxelFaces& faces, const OccupiedLevels& occupied,

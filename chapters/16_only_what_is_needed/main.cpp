@@ -7,7 +7,7 @@
 // Page: docs/12_second_bounce.md
 #include "01_first_light/first_light.hpp"
 #include "12_second_bounce/camera_light.hpp"
-#include "16_only_what_is_needed/brick_light.hpp"
+#include "16_only_what_is_needed/brick_storage.hpp"
 
 using namespace conebook;
 
@@ -17,14 +17,14 @@ try {
     CameraLightParams camera_params;
     DisplayParams display_params;
     ParameterTable parameters = parameters_of(scene_params, camera_params, display_params);
-    add_storage_parameter(parameters, scene_params.voxels.pyramid);
+    add_storage_parameter(parameters, scene_params);
 
     App app(argc, argv, {"16_only_what_is_needed", light_views(), parameters});
 
     const GpuScene scene(app.scene());
     app.show_meanwhile(first_light(app, scene, display_params));
-    BrickLight bricks(app.shaders(), scene_params.voxels.pyramid);
-    SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params, bricks.storage());
+    BrickStorage bricks(app.shaders(), scene_params);
+    SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params, bricks.storages());
     CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
     ToneMapPass tone_map(app.shaders());
     const SceneTraits traits = traits_of(app.scene());

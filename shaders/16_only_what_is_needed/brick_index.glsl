@@ -7,16 +7,13 @@
 //   w      number of bits in x
 // In front of them a texel for each level: xyz bricks along each axis, w the first one.
 #include "common/voxel_grid.glsl"
-#include "16_only_what_is_needed/brick_structs.glsl"
-
-ivec2 list_place(uint i) { return ivec2(i % uint(kListWidth), i / uint(kListWidth)); }
+#include "16_only_what_is_needed/brick_list.glsl"
 
 uint brick_place(uvec4 level_record, ivec3 voxel)
 {
     uvec3 brick = uvec3(voxel) / uint(kBrickSide);
     return level_record.w + (brick.z * level_record.y + brick.y) * level_record.x + brick.x;
 }
-uint brick_bit(ivec3 voxel) { return uint((voxel.x & 3) | (voxel.y & 3) << 2 | (voxel.z & 3) << 4); }
 
 // snippet: place_in
 uint place_in(uvec4 brick, ivec3 voxel)

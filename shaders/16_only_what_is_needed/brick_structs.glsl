@@ -13,5 +13,6 @@ CONEBOOK_CONSTANT int kLevelRecords = 8;   // in front of the list of bricks, on
 // Texture units.
 CONEBOOK_CONSTANT int kBrickUnit = 32;
 CONEBOOK_CONSTANT int kBrickVoxelUnit = 33;
+CONEBOOK_CONSTANT int kWalkBrickUnit = 34;
 
 CONEBOOK_SHARED_END

@@ -64,5 +64,9 @@ CONEBOOK_CONSTANT int kRadianceAfterBinding = 2;
 CONEBOOK_CONSTANT int kLinkBinding = 4;
 CONEBOOK_CONSTANT int kChangeBinding = 6;
 CONEBOOK_CONSTANT int kAlbedoBinding = 7;
+// 16
+CONEBOOK_CONSTANT int kBrickVoxelBinding = 0;
+CONEBOOK_CONSTANT int kBrickTotalBinding = 1;
+CONEBOOK_CONSTANT int kBrickBinding = 3;
 
 CONEBOOK_SHARED_END
