@@ -136,7 +136,7 @@ TEST_P(Bricks, HoldWhatTheAtlasHolds)
 {
     Stored stored(mixed_scene(), GetParam().voxels, GetParam().directions, GetParam().format);
     const glm::ivec3 size = stored.lit.grid.size();
-    EXPECT_TRUE(size.x != size.y && size.y != size.z);
+    EXPECT_NE(size.x, size.y);
     const std::vector<Place> places = stored.all_voxels();
     stored.store(VoxelStorage::dense);
     const auto light = stored.look_up(light_of_voxel, places), emission = stored.look_up(emission_of_voxel, places);
@@ -146,8 +146,9 @@ TEST_P(Bricks, HoldWhatTheAtlasHolds)
         EXPECT_EQ(stored.look_up(light_of_voxel, places), light);
         EXPECT_EQ(stored.look_up(emission_of_voxel, places), emission);
         // Lists end with a whole row, which in a small grid is most of them.
-        if (GetParam().voxels > 40)
+        if (GetParam().voxels > 40) {
             EXPECT_LT(bytes_of(stored.light.resources()) + bytes_of(stored.bricks.index().resources()), dense / 4);
+        }
         stored.store(VoxelStorage::dense);
         EXPECT_EQ(stored.look_up(light_of_voxel, places), light);
     }

@@ -24,11 +24,24 @@ LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxel
 {
 }
 
+bool LitVoxels::needs_occupancy() const
+{
+    const auto shadows = VoxelShadows(params_.shading.voxel_shadows);
+    return params_.pyramid.storage == 0 || shadows == VoxelShadows::hard_ray || shadows == VoxelShadows::soft_ray;
+}
+
+void LitVoxels::free_scratch()
+{
+    voxelizer_.free_scratch(!needs_occupancy());
+    faces_.free_scratch();
+}
+
 void LitVoxels::shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps)
 {
     // Triangles -> occupied voxels -> mean material of their faces; all that follows from them runs when they do.
     grid_.fit(scene.bounds(), params_.grid);
-    if (params_.update == int(Update::always)) voxelizer_.forget();
+    const bool missing = needs_occupancy() && !voxelizer_.occupancy();
+    if (params_.update == int(Update::always) || missing) voxelizer_.forget();
     app.pass("voxelize", Scope::scene, [&] { return voxelizer_.run(scene, grid_, params_.voxelizer); });
     app.pass("average", Scope::scene, [&] { return faces_.run(scene, grid_, voxelizer_); });
     // Material and lights -> radiance of the faces.

@@ -30,6 +30,9 @@ public:
     void filter(App& app, LightPart part = LightPart::all);
     void filter(App& app, const gl::Buffer& reflected, Revision revision, LightPart part);
 
+    // Frees what only voxelization needs. What it made stays.
+    void free_scratch();
+
     const VoxelGrid& grid() const { return grid_; }
     const ConservativeVoxelizer& voxelizer() const { return voxelizer_; }
     const VoxelFaces& faces() const { return faces_; }
@@ -41,6 +44,8 @@ public:
     std::vector<Count> counts() const;
 
 private:
+    // Whether rays or pixels look into the occupancy; the pyramids of other storages than the atlas know it themselves.
+    bool needs_occupancy() const;
     const LitVoxelParams& params_;
     VoxelGrid grid_;
     ConservativeVoxelizer voxelizer_;

@@ -54,6 +54,11 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, c
         voxels_.filter(app, bounces_.reflected(), bounces_.revision(), emitters_.part_of_voxels());
     else
         voxels_.filter(app, emitters_.part_of_voxels());
+
+    // Who stores no more than there is keeps no more than is asked for.
+    if (storage == 0) return;
+    voxels_.free_scratch();
+    bounces_.free_scratch();
 }
 
 std::vector<gl::Resource> SceneLight::resources() const

@@ -84,7 +84,8 @@ void BrickLight::fit(LightTexels& texels, const VoxelGrid& grid, const VoxelFace
     } else {
         texels.coverage = {};
     }
-    texels.defines = {{"LIGHT_STORAGE", "16_only_what_is_needed/brick_light.glsl"}};
+    texels.defines = {{"LIGHT_STORAGE", "16_only_what_is_needed/brick_light.glsl"},
+                      {"OCCUPANCY_STORAGE", "16_only_what_is_needed/brick_occupancy.glsl"}};
     texels.index = {{GLuint(shared::kBrickUnit), &index_.bricks()}, {GLuint(shared::kBrickVoxelUnit), &index_.voxels()}};
 }
 

@@ -1,9 +1,8 @@
 // The pyramids as lists of what is there: a voxel's place by its brick, from there how many texels it has and where the
 // first one is. What is not there has texel 0, which is empty. Part of 07_anisotropic_mips/pyramid.glsl, in place of
 // light_atlas.glsl.
-#include "16_only_what_is_needed/brick_index.glsl"
+#include "16_only_what_is_needed/brick_occupancy.glsl"
 
-layout(binding = kBrickUnit) uniform usampler2D bricks;
 layout(binding = kBrickVoxelUnit) uniform usampler2D brick_voxels;  // first texel << 6 | directions that have one
 layout(binding = kLightAtlasUnit) uniform sampler2D light_list;
 layout(binding = kEmissionAtlasUnit) uniform sampler2D emission_list;
@@ -14,8 +13,8 @@ layout(binding = kCoverageAtlasUnit) uniform sampler2D coverage_list;
 // snippet: stored_place
 ivec2 stored_place(int face, ivec3 voxel, int level)
 {
-    uvec4 brick = texelFetch(bricks, list_place(brick_place(texelFetch(bricks, ivec2(level, 0), 0), voxel)), 0);
-    uint entry = texelFetch(brick_voxels, list_place(place_in(brick, voxel)), 0).r, bit = 1u << face;
+    uint place = place_in(brick_of(voxel, level), voxel);
+    uint entry = texelFetch(brick_voxels, list_place(place), 0).r, bit = 1u << face;
     return list_place((entry & bit) != 0u ? (entry >> 6) + uint(bitCount(entry & (bit - 1u))) : 0u);
 }
 // end snippet
