@@ -49,6 +49,14 @@ std::size_t ConservativeVoxelizer::fragment_count() const
     return sum;
 }
 
+void ConservativeVoxelizer::free_scratch(bool occupancy_too)
+{
+    fragments_ = {};
+    room_for_.forget();
+    large_triangles_ = {};
+    if (occupancy_too) occupancy_ = {};
+}
+
 std::vector<gl::Resource> ConservativeVoxelizer::resources() const
 {
     std::vector<gl::Resource> resources = {occupancy_.resource(), fragments_.resource()};

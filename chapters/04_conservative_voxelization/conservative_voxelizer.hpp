@@ -32,6 +32,9 @@ public:
     bool run(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params);
     void forget() { made_from_.forget(); }  // the next run fills them whatever has changed, for measuring
     Revision revision() const { return revision_; }
+    // Frees the fragments, which only chapter 05 needs, and the occupancy where nobody looks into it; the next run makes
+    // them anew.
+    void free_scratch(bool occupancy_too);
 
     // r32ui, grid size: fragments in each voxel. Only with VoxelizerParams::count_fragments.
     const gl::Texture& fragment_counts() const { return fragment_counts_; }

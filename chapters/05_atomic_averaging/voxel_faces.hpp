@@ -54,6 +54,8 @@ public:
     const gl::Buffer& statistics_buffer() const { return *statistics_; }
     const gl::Buffer& face_groups() const { return face_groups_; }     // indirect dispatch: 64 faces a work group
     const gl::Buffer& voxel_groups() const { return voxel_groups_; }   // indirect dispatch: 64 voxels a work group
+    // Frees the sums, of which the means are all that the light needs; the next run makes them anew.
+    void free_scratch() { sums_ = {}; }
     std::vector<gl::Resource> resources() const;
 
     // kVoxelCounterBinding, kVoxelListBinding, kFaceListBinding, kFaceBinding, kFaceIndexUnit.

@@ -32,10 +32,10 @@ void add_parameters(ParameterTable& table, DiffuseConeParams& params)
     table.add_values("gather_scale", params.gather_scale, {1, 2, 4}, "one of so many pixels along a side gathers");
 }
 
-gl::Defines cone_defines(const ConeParams& params, const LightPyramid& pyramid)
+gl::Defines cone_defines(const ConeParams& params, const ConeVolumes& volumes)
 {
-    gl::Defines defines = {{"MARCH", params.walk == ConeWalk::march ? "1" : "0"}};
-    defines.merge(pyramid.defines());
+    gl::Defines defines = volumes.defines();
+    defines["MARCH"] = params.walk == ConeWalk::march ? "1" : "0";
     return defines;
 }
 
@@ -99,6 +99,13 @@ void ConeVolumes::bind() const
     walk.bind();
 }
 
+gl::Defines ConeVolumes::defines() const
+{
+    gl::Defines all = pyramid.defines();
+    all.insert(walk.defines().begin(), walk.defines().end());
+    return all;
+}
+
 DiffuseCones::DiffuseCones(gl::Shaders& shaders, const std::string& folder)
     : points_(shaders),
       gather_(shaders, {"common/fullscreen.vert", folder + "/gather.frag"}),
@@ -112,7 +119,7 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes&
                                      const DiffuseConeParams& params, int sample)
 {
     const auto bind = [&](const gl::Program&) { volumes.bind(); };
-    return run(g_buffer, volumes.grid, bind, cone_defines(cones, volumes.pyramid), directions, cones, params, sample);
+    return run(g_buffer, volumes.grid, bind, cone_defines(cones, volumes), directions, cones, params, sample);
 }
 
 const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const VoxelGrid& grid,

@@ -53,8 +53,17 @@ struct ConeParams {
 };
 void add_parameters(ParameterTable& table, ConeParams& params);
 
+// What cones go through: where they end, and the light there.
+struct ConeVolumes {
+    const VoxelGrid& grid;
+    const LightPyramid& pyramid;
+    const WalkVolume& walk;
+    void bind() const;
+    gl::Defines defines() const;  // for programs that read them
+};
+
 // Defines that programs with cones are compiled with.
-gl::Defines cone_defines(const ConeParams& params, const LightPyramid& pyramid);
+gl::Defines cone_defines(const ConeParams& params, const ConeVolumes& volumes);
 
 // The uniforms of shaders/08_diffuse_cones/cone_common.glsl and march.glsl.
 void set_cones(const gl::Program& program, const ConeParams& params);
@@ -85,14 +94,6 @@ struct DiffuseConeParams {
     bool operator==(const DiffuseConeParams&) const = default;
 };
 void add_parameters(ParameterTable& table, DiffuseConeParams& params);
-
-// What cones go through: where they end, and the light there.
-struct ConeVolumes {
-    const VoxelGrid& grid;
-    const LightPyramid& pyramid;
-    const WalkVolume& walk;
-    void bind() const;
-};
 
 class DiffuseCones {
 public:

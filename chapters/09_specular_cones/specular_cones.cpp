@@ -57,7 +57,7 @@ const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const ConeVolumes
     volumes.bind();
     const std::vector<std::string> files = {"common/fullscreen.vert", folder + "/specular.frag"};
     const gl::Program& trace =
-        trace_.try_emplace(folder, shaders_, files).first->second.with(volumes.pyramid.defines());
+        trace_.try_emplace(folder, shaders_, files).first->second.with(volumes.defines());
     bind(trace, cones, params, sample);
     gl::draw_pixels(trace, specular_framebuffer_, no_vertices_, g_buffer.size());
 

@@ -55,7 +55,7 @@ const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuSce
     if (params.shadows == ShadowMethod::volume) fill_volume(volumes.grid, faces, shading);
     g_buffer.bind();
     volumes.bind();
-    gl::Defines defines = volumes.pyramid.defines();
+    gl::Defines defines = volumes.defines();
     defines["METHOD"] = std::to_string(int(params.shadows));
     const gl::Program& lighting = lighting_.with(defines);
     scene.bind_lights(lighting);

@@ -18,9 +18,9 @@ void add_parameters(ParameterTable& table, EmitterParams& params)
 }
 
 bool Emitters::run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading,
-                   const EmitterParams& params, bool of_nothing)
+                   const EmitterParams& params, VoxelStorage storage, bool of_nothing)
 {
-    if (!made_from_.differs(faces.revision(), params, of_nothing)) return false;
+    if (!made_from_.differs(faces.revision(), params, storage, of_nothing)) return false;
     ++revision_;
     if (parts_made_from_.differs(grid.revision(), params, of_nothing)) {
         params_ = params;
@@ -30,7 +30,9 @@ bool Emitters::run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelSh
         triangles_ = apart_ ? gl::Buffer("emitter triangles", emitters_.triangles) : gl::Buffer();
         parts_ = apart_ ? gl::Buffer("emitter parts", emitters_.parts) : gl::Buffer();
     }
-    if (apart_) pyramid_.run(grid, faces, shading.radiance(), shading.revision(), PyramidParams{}, LightPart::emitted);
+    PyramidParams pyramid;
+    pyramid.storage = storage;
+    if (apart_) pyramid_.run(grid, faces, shading.radiance(), shading.revision(), pyramid, LightPart::emitted);
     return apart_ || shine();
 }
 

@@ -31,18 +31,17 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     constexpr int kSets = 64;  // of 8 x 8 faces of a wall
     const std::size_t count = voxels.faces().face_count();
     links_ = gl::Buffer("links", count * std::size_t(params.links) * sizeof(GLuint));
-    from_emitters_ = gl::Buffer("from emitters", count * sizeof(glm::vec4));
+    has_emitters_ = emitters.shine() || emitters.are_apart();
+    from_emitters_ = has_emitters_ ? gl::Buffer("from emitters", count * sizeof(glm::vec4)) : gl::Buffer();
     albedo_ = gl::Buffer("reflectance of faces", count * sizeof(GLuint));
-    for (gl::Buffer& buffer : packed_) buffer = gl::Buffer("radiance of faces between bounces", count * sizeof(glm::uvec2));
     reflected_ = gl::Buffer("reflected by faces", count * sizeof(glm::vec4));
-    has_emitters_ = emitters.shine();
 
     voxels.grid().bind();
     voxels.faces().bind();
     voxels.pyramid().bind();
     walk.bind();
     gl::Defines defines = {{"MARCH", "0"}, {"EMITTERS", emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0"}};
-    defines.merge(voxels.pyramid().defines());
+    defines.merge(ConeVolumes{voxels.grid(), voxels.pyramid(), walk}.defines());
     defines.merge(emitters.defines());
     const gl::Program& link = link_.with(defines);
     ConeParams rays = cones;
@@ -67,6 +66,9 @@ bool Bounces::run(const LitVoxels& voxels, const ConeParams& cones, const Bounce
     if (!made_from_.differs(links_revision_, voxels.shading().revision(), cones.sky, params)) return false;
     ++revision_;
     const VoxelFaces& faces = voxels.faces();
+    const std::size_t bytes = faces.face_count() * sizeof(glm::uvec2);
+    for (gl::Buffer& buffer : packed_)
+        if (buffer.bytes() != bytes) buffer = gl::Buffer("radiance of faces between bounces", bytes);
     const bool to_convergence = params.bounces < 0;
     constexpr int kMost = 256;  // 0.99^256 = 0.08: the brightest white allowed is not quite done by then
     constexpr int kMeasureEvery = 4;

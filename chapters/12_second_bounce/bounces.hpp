@@ -34,6 +34,12 @@ public:
     // albedo of at most 0.99, so no bounce adds more than the last one and the sum is bounded by R(0) / (1 - 0.99).
     bool run(const LitVoxels& voxels, const ConeParams& cones, const BounceParams& params);
 
+    // Frees what only a run needs; the next one makes it anew.
+    void free_scratch()
+    {
+        for (gl::Buffer& buffer : packed_) buffer = {};
+    }
+
     // vec4 a face: W/(sr m^2).
     const gl::Buffer& reflected() const { return reflected_; }
     Revision revision() const { return revision_; }

@@ -12,12 +12,13 @@ void add_parameters(ParameterTable& table, SceneLightParams& params)
     add_parameters(table, params.shadow_maps);
 }
 
-SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params)
+SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params,
+                       const SceneStorages& storages)
     : params_(params),
       shadow_maps_(shaders),
-      voxels_(shaders, scene, params.voxels),
-      walk_volume_(shaders),
-      emitters_(shaders, source),
+      voxels_(shaders, scene, params.voxels, storages.light),
+      walk_volume_(shaders, storages.walk),
+      emitters_(shaders, source, storages.light),
       bounces_(shaders)
 {
 }
@@ -36,12 +37,12 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, c
 
     // Where rays may leap, and what shines.
     if (!plan.pyramid.used) return;
-    app.pass("walk volume", Scope::scene, [&] { return walk_volume_.run(voxels_.grid(), voxels_.faces()); });
-    app.pass("emitters", Scope::scene,
-             [&] {
-                 return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), params_.emitters,
-                                      plan.makes_everything);
-             });
+    const VoxelStorage storage = params_.voxels.pyramid.storage;
+    app.pass("walk volume", Scope::scene, [&] { return walk_volume_.run(voxels_.grid(), voxels_.faces(), int(storage)); });
+    app.pass("emitters", Scope::scene, [&] {
+        return emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), params_.emitters, storage,
+                             plan.makes_everything);
+    });
 
     // Faces light faces, along links that stay.
     if (plan.further_bounces.used) {
@@ -57,6 +58,11 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, c
         voxels_.filter(app, bounces_.reflected(), bounces_.revision(), emitters_.part_of_voxels());
     else
         voxels_.filter(app, emitters_.part_of_voxels());
+
+    // Who stores no more than there is keeps no more than is asked for.
+    if (storage == VoxelStorage::dense) return;
+    voxels_.free_scratch();
+    bounces_.free_scratch();
 }
 
 std::vector<gl::Resource> SceneLight::resources() const

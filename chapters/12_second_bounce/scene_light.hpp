@@ -14,10 +14,17 @@ struct SceneLightParams {
 };
 void add_parameters(ParameterTable& table, SceneLightParams& params);
 
+// Where to keep what depends on the scene alone, instead of in volumes that hold every voxel.
+struct SceneStorages {
+    LightStorage light;
+    WalkStorage walk;
+};
+
 class SceneLight {
 public:
-    // `shaders`, `source` and `params` must outlive this.
-    SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params);
+    // `shaders`, `source` and `params` must outlive this. `storages`: where params.voxels.pyramid.storage > 0.
+    SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params,
+               const SceneStorages& storages = {});
 
     void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan);
 

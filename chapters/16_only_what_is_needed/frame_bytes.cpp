@@ -70,8 +70,10 @@ double expected_bytes(const SceneSize& scene, const FrameSettings& settings, con
         bytes += bytes_of_texel(settings.scene.voxels.pyramid.format) * texels + 4.0 * cells_of(grid_size + 1);
         if (scene.emitters_apart || plan.makes_everything) bytes += bytes_of_texel(LightFormat::rgba16f) * texels;
     }
-    if (plan.further_bounces.used)
-        bytes += faces * (4.0 * settings.scene.bounces.links + 16.0 + 4.0 + 2.0 * 8.0 + 16.0);
+    if (plan.further_bounces.used) {
+        const double from_emitters = scene.emitters_apart || plan.makes_everything ? 16.0 : 0.0;
+        bytes += faces * (4.0 * settings.scene.bounces.links + from_emitters + 4.0 + 2.0 * 8.0 + 16.0);
+    }
     if (plan.visibility_volume.used) bytes += 4.0 * double(shared::kFaceCount) * cells;
 
     // A pixel's g-buffer, and what passes write; a point's.

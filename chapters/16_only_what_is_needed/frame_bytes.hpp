@@ -19,7 +19,7 @@ SceneSize size_of(const GpuScene& scene, const SceneTraits& traits);
 double expected_faces(const SceneSize& scene, double voxel_size_m);
 
 // Bytes of all that the plan makes for a picture of `size` pixels, and of the scene: volumes exactly, lists of faces by
-// expected_faces().
+// expected_faces(). With dense storage.
 double expected_bytes(const SceneSize& scene, const FrameSettings& settings, const LightPlan& plan, glm::ivec2 size);
 
 }  // namespace conebook

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "01_first_light/first_light.hpp"
+#include "16_only_what_is_needed/brick_storage.hpp"
 #include "16_only_what_is_needed/chosen_settings.hpp"
 #include "16_only_what_is_needed/plan_lines.hpp"
 
@@ -36,6 +37,7 @@ try {
     PrintParams print_params;
     ParameterTable parameters =
         parameters_of(demand, need_params, print_params, asked_of_scene, asked_of_camera, display_params);
+    add_storage_parameter(parameters, asked_of_scene);
 
     App app(argc, argv, {"16_only_what_is_needed", light_views(), parameters});
 
@@ -46,7 +48,8 @@ try {
                           traits);
     const SceneLightParams& scene_params = chosen.scene();
     const CameraLightParams& camera_params = chosen.camera();
-    SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params);
+    BrickStorage bricks(app.shaders(), scene_params);
+    SceneLight scene_light(app.shaders(), app.scene(), scene, scene_params, bricks.storages());
     CameraLight camera_light(app.shaders(), scene_light, app.size(), camera_params);
     ToneMapPass tone_map(app.shaders());
     LightPlan plan;
@@ -79,6 +82,7 @@ try {
     std::vector<PlanLine> lines = demand_lines(chosen);
     for (const PlanLine& line : plan_lines(plan, scene_light, camera_light, scene_params, camera_params, app))
         lines.push_back(line);
+    if (const PlanLine line = brick_line(bricks.resources()); line.bytes > 0) lines.push_back(line);
     if (print_params.print_plan) std::cout << plan_text(lines);
     app.statistics().set_plan(lines);
     std::vector<Count> counts = scene_light.counts();
@@ -90,7 +94,7 @@ try {
     counts.push_back({"draws for the shadow maps", double(scene_light.shadow_maps().draws()), ""});
     counts.push_back({"draws for the shadow maps, of all objects", draws * maps, ""});
     app.statistics().set_counts(counts);
-    for (const auto& part : {scene.resources(), scene_light.resources(), camera_light.resources()})
+    for (const auto& part : {scene.resources(), bricks.resources(), scene_light.resources(), camera_light.resources()})
         app.statistics().add_resources(part);
     for (const auto& needs : {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene()), plan.decisions()})
         app.statistics().add_needs(needs);

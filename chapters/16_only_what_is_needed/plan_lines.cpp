@@ -137,6 +137,13 @@ std::vector<PlanLine> demand_lines(const ChosenSettings& chosen)
         {"demand", "expected error", true, 0, 0.0, number(e.error) + ", as measured in " + chosen.measured_scene()}};
 }
 
+PlanLine brick_line(const std::vector<gl::Resource>& resources)
+{
+    PlanLine line{"volume", "index of bricks", true, 0, 0.0, "storage=bricks"};
+    for (const gl::Resource& resource : resources) line.bytes += resource.bytes;
+    return line;
+}
+
 std::vector<Count> plan_counts(const std::vector<PlanLine>& lines, App& app)
 {
     double bytes = 0.0;

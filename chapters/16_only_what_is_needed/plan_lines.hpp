@@ -11,6 +11,8 @@ std::vector<PlanLine> plan_lines(const LightPlan& plan, const SceneLight& scene_
                                  App& app);
 // What was chosen for the reader's demand, and what is expected of it; empty where nothing is demanded.
 std::vector<PlanLine> demand_lines(const ChosenSettings& chosen);
+// What all volumes share with storage=bricks.
+PlanLine brick_line(const std::vector<gl::Resource>& resources);
 // How many passes ran and programs were made, and the memory of all lines.
 std::vector<Count> plan_counts(const std::vector<PlanLine>& lines, App& app);
 // A line each, in columns.

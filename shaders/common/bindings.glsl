@@ -64,6 +64,10 @@ CONEBOOK_CONSTANT int kRadianceAfterBinding = 2;
 CONEBOOK_CONSTANT int kLinkBinding = 4;
 CONEBOOK_CONSTANT int kChangeBinding = 6;
 CONEBOOK_CONSTANT int kAlbedoBinding = 7;
+// 16
+CONEBOOK_CONSTANT int kBrickVoxelBinding = 0;
+CONEBOOK_CONSTANT int kBrickTotalBinding = 1;
+CONEBOOK_CONSTANT int kBrickBinding = 3;
 
 // 17: node, node brick and brick list keep their numbers; the rest is for building.
 CONEBOOK_CONSTANT int kNodeBinding = 4;
