@@ -61,7 +61,7 @@ TEST(DynamicScenes, EachEventRunsWhatDependsOnIt)
     frames.params.scene.voxels.grid.voxels = 28;
     expect("another grid", once({"voxelize still", "average still", "put in", "average moving", "voxel shading",
                                  "walk volume", "coverage of voxels", "links", "further bounces", "light pyramid"}));
-    frames.params.scene.voxels.update = int(Update::always);
+    frames.params.scene.voxels.update = Update::always;
     Runs all = kFirst;
     all.erase("pose");  // nothing is made of it
     for (int frame = 0; frame < 2; ++frame) EXPECT_EQ(frames.draw(), all + kCamera) << "update=always";

@@ -57,7 +57,7 @@ FaceChange DynamicVoxels::run(App& app, const Scene& source, const GpuScene& sce
     const LitVoxels::Parts parts = voxels.parts();
     params_ = params;
     parts.grid.fit(scene.bounds(), parts.params.grid);
-    if (parts.params.update == int(Update::always)) still_from_.forget();
+    if (parts.params.update == Update::always) still_from_.forget();
 
     // What stands still: voxels and sums, once.
     app.pass("voxelize still", Scope::scene, [&] {
