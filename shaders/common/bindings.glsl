@@ -64,5 +64,9 @@ CONEBOOK_CONSTANT int kRadianceAfterBinding = 2;
 CONEBOOK_CONSTANT int kLinkBinding = 4;
 CONEBOOK_CONSTANT int kChangeBinding = 6;
 CONEBOOK_CONSTANT int kAlbedoBinding = 7;
+// 19
+CONEBOOK_CONSTANT int kPatchBinding = 2;
+CONEBOOK_CONSTANT int kPatchLightBinding = 3;
+CONEBOOK_CONSTANT int kSightBinding = 4;
 
 CONEBOOK_SHARED_END
