@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace conebook {
 namespace {
@@ -44,7 +43,14 @@ void add_parameters(ParameterTable& table, FurtherLightParams& params)
 {
     table.add("emitter_lights", params.emitter_lights, 1, 4096, "", "most lights that emissive surfaces become");
     table.add("ray", params.ray, {"cosine", "mirror"}, "which way a light sends the rays of the next bounce");
-    table.add("rays", params.rays, 1, 64, "", "rays of each light");
+    table.add("rays", params.rays, 0, 64, "", "rays of each light of step 2; 0: by the number of lights");
+}
+
+int rays_of(const FurtherLightParams& params, std::size_t lights)
+{
+    constexpr std::size_t kUsual = 2048, kMost = 16;
+    return params.rays > 0 ? params.rays
+                           : int(std::clamp(kUsual / std::max<std::size_t>(lights, 1), std::size_t(1), kMost));
 }
 
 glm::dvec3 total_flux(const std::vector<PickedLight>& lights)
@@ -74,59 +80,80 @@ std::vector<PickedLight> emitter_lights(const PatchMesh& mesh, const FurtherLigh
     std::vector<PickedLight> lights;
     const double run = total / params.emitter_lights;
     double before = 0.0;  // flux of the patches before this one
-    std::optional<std::size_t> middle;
+    constexpr std::size_t kNone = ~std::size_t(0);
+    std::size_t middle = kNone;  // of the run
     glm::vec3 flux(0.0f);
     float area = 0.0f;
+    std::vector<PickedLight> parts;
+    const auto light_at = [&](std::size_t id, const glm::vec3& of, float size) {
+        PickedLight picked;
+        picked.light = {glm::vec4(glm::vec3(mesh.patches[id].position), size), mesh.patches[id].normal,
+                        glm::vec4(of, 0.0f)};
+        return picked;
+    };
     for (std::size_t i = 0; i < emitters.size(); ++i) {
         const std::size_t id = emitters[i];
         flux += mesh.emitted[id];
         area += mesh.patches[id].position.w;
         const double after = before + sum_of(mesh.emitted[id]);
-        if (!middle && std::floor(after / run + 0.5) > std::floor(before / run + 0.5)) middle = id;
+        if (middle == kNone && std::floor(after / run + 0.5) > std::floor(before / run + 0.5)) middle = id;
         const bool is_end = std::floor(after / run) > std::floor(before / run) || i + 1 == emitters.size();
         before = after;
+        if (!each) parts.push_back(light_at(id, mesh.emitted[id], mesh.patches[id].position.w));
         if (!each && !is_end) continue;
         // The patch in the middle of a run stands for it.
-        const shared::Patch& patch = mesh.patches[each ? id : middle.value_or(id)];
-        PickedLight picked;
-        picked.light = {glm::vec4(glm::vec3(patch.position), area), patch.normal, glm::vec4(flux, 0.0f)};
-        lights.push_back(picked);
+        lights.push_back(light_at(each || middle == kNone ? id : middle, flux, area));
+        if (parts.size() > 1) lights.back().parts = parts;
+        parts.clear();
         flux = glm::vec3(0.0f);
         area = 0.0f;
-        middle.reset();
+        middle = kNone;
     }
     return lights;
 }
 
 std::vector<PickedLight> next_bounce(const SceneTracer& tracer, const std::vector<PickedLight>& lights,
-                                     const FurtherLightParams& params, double mesh_area)
+                                     const FurtherLightParams& params, double mesh_area, NextBounce bounce)
 {
     std::vector<PickedLight> met;
-    const std::size_t count = lights.size() * std::size_t(params.rays);
-    for (std::size_t i = 0; i < count; ++i) {
-        const PickedLight& from = lights[i / std::size_t(params.rays)];
+    const std::size_t rays = bounce.number == 2 ? std::size_t(rays_of(params, lights.size())) : 1;
+    double kept = 0.5;
+    for (std::size_t i = 0; i < lights.size() * rays; ++i) {
+        const PickedLight& from = lights[i / rays];
         const glm::vec3 normal(from.light.normal);
         // snippet: ray
         // A diffuse light sends its flux by the cosine of the angle to its normal; so are the rays distributed, and each
         // carries the same share.
-        const glm::dvec2 u = even_point(i);
+        const glm::dvec2 u = even_point(bounce.first_ray + i);
         const double r = std::sqrt(u.x), turn = 2.0 * std::numbers::pi * u.y;
         glm::vec3 direction = Frame(normal).to_scene({r * std::cos(turn), r * std::sin(turn), std::sqrt(1.0 - u.x)});
         if (params.ray == int(RayDirection::mirror))
             direction = from.incoming == glm::vec3(0.0f) ? normal : glm::reflect(from.incoming, normal);
-        const auto hit = tracer.intersect({glm::vec3(from.light.position) + tracer.surface_offset() * normal, direction});
+        const auto hit =
+            tracer.intersect({glm::vec3(from.light.position) + tracer.surface_offset() * normal, direction});
         if (!hit || hit->dark) continue;
-        const glm::vec3 flux = hit->brdf.rho * glm::vec3(from.light.flux) / float(params.rays);
+        const glm::vec3 arriving = glm::vec3(from.light.flux) / float(rays);
+        glm::vec3 flux = hit->brdf.rho * arriving;
         // end snippet
         if (flux == glm::vec3(0.0f)) continue;
-        // Each stands for its share of all surfaces, but for no more than its own ray can have reached.
-        const double reach = std::numbers::pi * hit->distance * hit->distance;
+        if (bounce.number > 2) {
+            const double share = sum_of(flux) / sum_of(arriving), before = kept;
+            kept += share;
+            if (std::floor(kept) == std::floor(before)) continue;
+            flux /= float(share);
+        }
         PickedLight picked;
-        picked.light = {glm::vec4(hit->position, std::min(mesh_area / double(count), reach)),
-                        glm::vec4(hit->shading_normal, 0.0f), glm::vec4(flux, 0.0f)};
+        const double reach = std::numbers::pi * double(hit->distance) * double(hit->distance);
+        picked.light = {glm::vec4(hit->position, float(reach)), glm::vec4(hit->shading_normal, 0.0f),
+                        glm::vec4(flux, 0.0f)};
         picked.incoming = direction;
+        // A disc no smaller than the one where the ray began, whose every point it might have come from.
+        picked.light.position.w = std::max(picked.light.position.w, from.light.position.w);
         met.push_back(picked);
     }
+    // Each stands for its share of all surfaces, but for no more than its own ray can have reached.
+    for (PickedLight& picked : met)
+        picked.light.position.w = std::min(picked.light.position.w, float(mesh_area / double(met.size())));
     return met;
 }
 

@@ -37,8 +37,7 @@ LightView parallel(int light, const glm::vec3& direction, const Bounds& bounds)
     LightView view;
     view.light = light;
     view.camera.orthographic = true;
-    view.camera.world_from_camera =
-        looking(bounds.center() - glm::length(bounds.extent()) * direction, direction);
+    view.camera.world_from_camera = looking(bounds.center() - glm::length(bounds.extent()) * direction, direction);
     const glm::mat3 axes(view.camera.world_from_camera);
     for (int i = 0; i < 8; ++i) {
         const glm::vec3 corner = glm::transpose(axes) * (bounds.corner(i) - bounds.center());
@@ -54,7 +53,8 @@ LightView parallel(int light, const glm::vec3& direction, const Bounds& bounds)
 void add_parameters(ParameterTable& table, PickParams& params)
 {
     table.add_values("m", params.m, {16, 32, 64, 128, 256, 512}, "texels along a side of what a light sees");
-    table.add_values("cells", params.cells, {1, 2, 4, 8, 16, 32, 64}, "cells along a side of it: a light each");
+    table.add_values("cells", params.cells, {0, 1, 2, 4, 8, 16, 32, 64},
+                     "cells along a side of it: a light each; 0: up to 32, by the number of views");
     table.add("pick", params.pick, {"maximum", "flux"}, "a cell's light: its brightest patch, or drawn by flux");
     table.add("borders", params.borders, {"keep", "drop"}, "cells on the border of the map");
 }
@@ -62,8 +62,16 @@ void add_parameters(ParameterTable& table, PickParams& params)
 void check(const PickParams& params)
 {
     if (params.cells > params.m)
-        throw std::runtime_error("cells=" + std::to_string(params.cells) + " are more than the texels, m=" +
-                                 std::to_string(params.m));
+        throw std::runtime_error("cells=" + std::to_string(params.cells) +
+                                 " are more than the texels, m=" + std::to_string(params.m));
+}
+
+int cells_of(const PickParams& params, std::size_t views)
+{
+    constexpr std::size_t kMost = 4096, kUsual = 2048;
+    int cells = params.cells > 0 ? params.cells : std::min(32, params.m);
+    while (cells > 1 && views * std::size_t(cells) * std::size_t(cells) > (params.cells > 0 ? kMost : kUsual)) cells /= 2;
+    return cells;
 }
 
 std::vector<LightView> light_views(const std::vector<Light>& lights, const Bounds& bounds)
@@ -167,34 +175,68 @@ void LightPicker::look(const GpuScene& scene, const LightView& view, int number,
     }
 }
 
-std::vector<PickedLight> LightPicker::lights(const LightView& view, const GpuScene& scene, const PatchMesh& mesh,
-                                             const PickParams& params) const
+namespace {
+
+// A level, on the CPU.
+struct ReadLevel {
+    explicit ReadLevel(const LightPicker::Level& level)
+        : cells(level.chosen.size().x),
+          chosen(gl::read_floats(level.chosen, 0, 4)),
+          normal_energy(gl::read_floats(level.normal_energy, 0, 4)),
+          flux_area(gl::read_floats(level.flux_area, 0, 4))
+    {
+    }
+    static glm::vec4 at(const std::vector<float>& values, int cell)
+    {
+        const float* v = &values[std::size_t(4 * cell)];
+        return {v[0], v[1], v[2], v[3]};
+    }
+    int cells;
+    std::vector<float> chosen, normal_energy, flux_area;
+};
+
+// The light of a cell and, from the levels before it, its parts. Nothing where no flux is.
+void add_light(std::vector<PickedLight>& lights, const std::vector<ReadLevel>& levels, std::size_t level, int x, int y,
+               const PatchMesh& mesh, Pick pick, const Light& source)
 {
-    const Level& last = levels_.back();
-    const int cells = last.chosen.size().x;
-    const auto chosen = gl::read_floats(last.chosen, 0, 4), normals = gl::read_floats(last.normal_energy, 0, 4),
-               fluxes = gl::read_floats(last.flux_area, 0, 4);
-    const Light& source = scene.lights()[std::size_t(view.light)];
+    const ReadLevel& l = levels[level];
+    const int cell = y * l.cells + x;
+    const glm::vec4 chosen = ReadLevel::at(l.chosen, cell), normal = ReadLevel::at(l.normal_energy, cell),
+                    flux = ReadLevel::at(l.flux_area, cell);
+    if (chosen.w < 0.0f || glm::vec3(flux) == glm::vec3(0.0f)) return;
+    PickedLight picked;
+    picked.light = {glm::vec4(glm::vec3(chosen), flux.w), glm::vec4(glm::vec3(normal), 0.0f),
+                    glm::vec4(glm::vec3(flux), 0.0f)};
+    if (pick == Pick::maximum) {
+        const shared::Patch& patch = mesh.patches[std::size_t(chosen.w)];
+        picked.light.position = glm::vec4(glm::vec3(patch.position), flux.w);
+        picked.light.normal = patch.normal;
+    }
+    picked.incoming = source.type == LightType::directional
+                          ? source.direction
+                          : glm::normalize(glm::vec3(picked.light.position) - source.position);
+    if (level > 0)
+        for (int k = 0; k < 4; ++k)
+            add_light(picked.parts, levels, level - 1, 2 * x + (k & 1), 2 * y + (k >> 1), mesh, pick, source);
+    lights.push_back(std::move(picked));
+}
+
+}  // namespace
+
+std::vector<PickedLight> LightPicker::lights(const LightView& view, const GpuScene& scene, const PatchMesh& mesh,
+                                             const PickParams& params, int depth) const
+{
+    std::vector<ReadLevel> levels;
+    const std::size_t first = levels_.size() - 1 - std::min(std::size_t(depth), levels_.size() - 1);
+    for (std::size_t i = first; i < levels_.size(); ++i) levels.emplace_back(levels_[i]);
+    const int cells = levels.back().cells;
     std::vector<PickedLight> lights;
     for (int y = 0; y < cells; ++y)
         for (int x = 0; x < cells; ++x) {
             const bool on_border = x == 0 || y == 0 || x == cells - 1 || y == cells - 1;
             if (params.borders == int(Borders::drop) && on_border) continue;
-            const float *c = &chosen[std::size_t(4 * (y * cells + x))], *n = &normals[std::size_t(4 * (y * cells + x))],
-                        *f = &fluxes[std::size_t(4 * (y * cells + x))];
-            const glm::vec3 flux(f[0], f[1], f[2]);
-            if (c[3] < 0.0f || flux == glm::vec3(0.0f)) continue;
-            PickedLight picked;
-            picked.light = {{c[0], c[1], c[2], f[3]}, {n[0], n[1], n[2], 0.0f}, glm::vec4(flux, 0.0f)};
-            if (params.pick == int(Pick::maximum)) {
-                const shared::Patch& patch = mesh.patches[std::size_t(c[3])];
-                picked.light.position = glm::vec4(glm::vec3(patch.position), f[3]);
-                picked.light.normal = patch.normal;
-            }
-            picked.incoming = source.type == LightType::directional
-                                  ? source.direction
-                                  : glm::normalize(glm::vec3(picked.light.position) - source.position);
-            lights.push_back(picked);
+            add_light(lights, levels, levels.size() - 1, x, y, mesh, Pick(params.pick),
+                      scene.lights()[std::size_t(view.light)]);
         }
     return lights;
 }

@@ -11,8 +11,9 @@ enum class Borders : int { keep, drop };
 struct PickParams {
     // Texels along a side of what a light sees, 16 .. 512: the flux of a texel goes to one patch.
     int m = 64;
-    // Cells along a side, each of which makes one light, 1 .. 64. Halved until all lights together make at most 4096.
-    int cells = 8;
+    // Cells along a side, each of which makes one light, 1 .. 64 (the document has 8); halved until all views together make
+    // at most 4096 lights. 0: up to 32, as long as they make at most 2048.
+    int cells = 0;
     // Which of a cell's texels becomes the light: the brightest patch (the document), or one drawn by its share of the flux.
     int pick = int(Pick::flux);
     // The document leaves out the cells on the border, and their light is lost.
@@ -22,11 +23,13 @@ struct PickParams {
 void add_parameters(ParameterTable& table, PickParams& params);
 // Throws std::runtime_error, which names both, when there are more cells than texels.
 void check(const PickParams& params);
+// Cells along a side of each of so many views.
+int cells_of(const PickParams& params, std::size_t views);
 
 // A map of what a light sees: a point light has six, or one where it is so far outside that it holds the whole scene.
 struct LightView {
-    int light = 0;  // index into GpuScene::lights()
-    Camera camera;  // at the light
+    int light = 0;         // index into GpuScene::lights()
+    Camera camera;         // at the light
     float tangent = 0.0f;  // of half its angle; 0: parallel
 };
 std::vector<LightView> light_views(const std::vector<Light>& lights, const Bounds& bounds);
@@ -35,6 +38,8 @@ std::vector<LightView> light_views(const std::vector<Light>& lights, const Bound
 struct PickedLight {
     shared::PatchLight light;
     glm::vec3 incoming{0.0f};  // unit, the way the light travelled that it reflects; 0: it emits
+    std::vector<PickedLight>
+        parts;  // smaller ones with the same flux together, for patches that are near; may be empty
 };
 
 class LightPicker {
@@ -45,9 +50,10 @@ public:
     void look(const GpuScene& scene, const LightView& view, int number, const PatchBuffers& patches,
               const RadiosityMap& map, const PickParams& params, int cells);
 
-    // Of the last look: one light a cell that has flux, in the order of the rows.
+    // Of the last look: one light a cell that has flux, in the order of the rows; its parts are what the levels before
+    // picked in it, `depth` of them (or down to the map itself).
     std::vector<PickedLight> lights(const LightView& view, const GpuScene& scene, const PatchMesh& mesh,
-                                    const PickParams& params) const;
+                                    const PickParams& params, int depth) const;
     // What all cells reflect, W, also those that `borders` leaves out.
     glm::dvec3 reflected_flux() const;
 

@@ -26,7 +26,8 @@ try {
                      {"radiosity_map", Encoding::radiance, "irradiance of all patches, W/m^2, as it lies in the map"},
                      {"ray_map", Encoding::radiance, "what a light sees: a colour for each patch (layer=)"},
                      {"reduction", Encoding::radiance, "the same, halved until there is one patch a cell"},
-                     {"lights", Encoding::radiance, "arrows: red the scene's lights, green and blue those of steps 2 and 3"}},
+                     {"lights", Encoding::radiance,
+                      "arrows: red the scene's lights, green and blue those of steps 2 and 3"}},
                     surface_views()),
              parameters});
 
@@ -49,7 +50,8 @@ try {
             if (view == "radiosity_map")
                 linear = &radiosity_view.draw_map(radiosity, app.size());
             else if (view == "ray_map" || view == "reduction")
-                linear = &radiosity_view.draw_light_view(radiosity, scene, view_params, view == "reduction", app.size());
+                linear =
+                    &radiosity_view.draw_light_view(radiosity, scene, view_params, view == "reduction", app.size());
             else if (view == "lights")
                 linear = &radiosity_view.draw_lights(radiosity, scene, app.camera(), app.size());
             else if (view == "final" || view == "direct" || view == "indirect_diffuse" || view == "emission")
@@ -63,8 +65,8 @@ try {
                 g_buffer.draw(scene, app.camera());
                 linear = g_buffer_view.run(g_buffer, app.view().name);
             });
-        app.show(*linear, tone_map.run(*linear, app.view().encoding, display_params,
-                                       data_scale(app.view(), scene.bounds())));
+        app.show(*linear,
+                 tone_map.run(*linear, app.view().encoding, display_params, data_scale(app.view(), scene.bounds())));
     });
 
     app.statistics().set_counts(radiosity.counts());

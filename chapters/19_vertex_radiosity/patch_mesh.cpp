@@ -60,7 +60,9 @@ Vertex middle(const Vertex& a, const Vertex& b)
 // The triangles of one draw.
 class Refinement {
 public:
-    Refinement(std::vector<Vertex>& vertices, float max_edge) : vertices_(vertices), longest_squared_(square(max_edge)) {}
+    Refinement(std::vector<Vertex>& vertices, float max_edge) : vertices_(vertices), longest_squared_(square(max_edge))
+    {
+    }
 
     void refine(std::vector<Corners>& triangles)
     {
@@ -148,14 +150,16 @@ glm::vec3 mean_emission(const Scene& scene, const Material& material, const Patc
     return sum / (kGrid * (kGrid + 1) / 2.0f);
 }
 
-// Light is computed a hundredth of the way from the vertex to the middle of its triangles, and as far above them: a vertex on
-// the edge between a floor and a wall stands on both, and would be in the wall for the floor.
-constexpr float kInset = 0.01f;
+// Light is computed in the middle of a patch: at its vertex, unless that is on an edge, where a point of the floor would be in
+// the wall as well.
+// A patch is of each of its triangles the third that is nearest to the vertex, the quadrangle over the middles of two edges
+// and of the triangle; its centroid lies 7/12 of the way from the vertex to the triangle's.
+constexpr float kWayToCenter = 7.0f / 12.0f;
 
 void measure(const Scene& scene, PatchMesh& mesh)
 {
     const std::size_t count = mesh.vertices.size();
-    mesh.patches.assign(count * (mesh.has_two_sides ? 2 : 1), shared::Patch{glm::vec4(0.0f), glm::vec4(0.0f)});
+    mesh.patches.assign(count * (mesh.has_two_sides ? 2 : 1), shared::Patch{});
     mesh.emitted.assign(mesh.patches.size(), glm::vec3(0.0f));
     std::vector<glm::vec3> moments(count, glm::vec3(0.0f));  // area times the middle, about the vertex, m^3
     for (const Draw& draw : mesh.draws) {
@@ -182,12 +186,13 @@ void measure(const Scene& scene, PatchMesh& mesh)
         shared::Patch& patch = mesh.patches[side];
         const Vertex& v = mesh.vertices[side % count];
         const glm::vec3 normal = side < count ? v.normal : -v.normal;
-        glm::vec3 inset(0.0f);
-        if (patch.position.w > 0.0f) {
-            inset = kInset / patch.position.w * moments[side % count];
-            inset -= glm::dot(inset, normal) * normal;
-        }
-        patch.position = glm::vec4(v.position + inset + glm::length(inset) * normal, patch.position.w);
+        glm::vec3 to_middle(0.0f);
+        if (patch.position.w > 0.0f) to_middle = moments[side % count] / patch.position.w;
+        // In the tangent plane, so as not to lie within what bulges; over it in a hollow, where the plane is behind the surface.
+        const float height = glm::dot(to_middle, normal);
+        const glm::vec3 level = to_middle - height * normal;
+        patch.position =
+            glm::vec4(v.position + kWayToCenter * (height < 0.0f ? level : to_middle), patch.position.w);
         patch.normal = glm::vec4(normal, 0.0f);
     }
 }

@@ -25,7 +25,7 @@ struct PatchMesh {
     std::vector<shared::Patch> patches;  // area 0: nothing is lit there
     std::vector<glm::vec3> emitted;      // by each patch, W
     bool has_two_sides = false;
-    float max_edge = 0.0f;               // m
+    float max_edge = 0.0f;  // m
 
     int back_offset() const { return has_two_sides ? int(vertices.size()) : 0; }
     double area() const;  // of all patches, m^2

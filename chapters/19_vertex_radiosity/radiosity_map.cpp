@@ -40,8 +40,12 @@ void PatchBuffers::upload(const PatchMesh& mesh)
     set_layout(points_, patches_, sizeof(shared::Patch),
                {{4, offsetof(shared::Patch, position)}, {4, offsetof(shared::Patch, normal)}});
     set_layout(triangles_, vertices_, sizeof(Vertex),
-               {{3, offsetof(Vertex, position)}, {3, offsetof(Vertex, normal)}, {4, offsetof(Vertex, tangent)},
-                {2, offsetof(Vertex, uv0)}, {2, offsetof(Vertex, uv1)}, {4, offsetof(Vertex, color)}});
+               {{3, offsetof(Vertex, position)},
+                {3, offsetof(Vertex, normal)},
+                {4, offsetof(Vertex, tangent)},
+                {2, offsetof(Vertex, uv0)},
+                {2, offsetof(Vertex, uv1)},
+                {4, offsetof(Vertex, color)}});
     glVertexArrayElementBuffer(triangles_.id(), indices_.id());
 }
 
@@ -85,10 +89,10 @@ std::vector<gl::Resource> PatchBuffers::resources() const
 }
 
 RadiosityMap::RadiosityMap(gl::Shaders& shaders)
-    : from_lights_(shaders.load({"19_vertex_radiosity/gather.vert", "19_vertex_radiosity/gather.frag"},
-                                {{"PUNCTUAL", "1"}})),
-      from_patches_(shaders.load({"19_vertex_radiosity/gather.vert", "19_vertex_radiosity/gather.frag"},
-                                 {{"PUNCTUAL", "0"}}))
+    : from_lights_(
+          shaders.load({"19_vertex_radiosity/gather.vert", "19_vertex_radiosity/gather.frag"}, {{"PUNCTUAL", "1"}})),
+      from_patches_(
+          shaders.load({"19_vertex_radiosity/gather.vert", "19_vertex_radiosity/gather.frag"}, {{"PUNCTUAL", "0"}}))
 {
     clear(0);
 }
@@ -136,10 +140,12 @@ void RadiosityMap::add_direct(const PatchBuffers& patches, const GpuScene& scene
     add(from_lights_, direct_target_, patches, sight, scene.lights().size(), half_texel);
 }
 
-void RadiosityMap::add_indirect(const PatchBuffers& patches, const std::vector<shared::PatchLight>& lights,
+void RadiosityMap::add_indirect(const PatchBuffers& patches, const std::vector<LightNode>& lights,
                                 const std::vector<std::uint32_t>& sight, FormFactor form_factor, bool half_texel)
 {
-    const gl::Buffer light_buffer("patch lights", lights);
+    std::vector<shared::PatchLight> list;
+    for (const LightNode& node : lights) list.push_back(node.light);
+    const gl::Buffer light_buffer("patch lights", list);
     light_buffer.bind(GL_SHADER_STORAGE_BUFFER, shared::kPatchLightBinding);
     from_patches_.set("form_factor", int(form_factor));
     add(from_patches_, indirect_target_, patches, sight, lights.size(), half_texel);

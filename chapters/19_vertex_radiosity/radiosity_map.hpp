@@ -2,6 +2,7 @@
 #pragma once
 
 #include "19_vertex_radiosity/patch_mesh.hpp"
+#include "19_vertex_radiosity/sight.hpp"
 #include "gl/gpu_scene.hpp"
 
 namespace conebook {
@@ -44,7 +45,7 @@ public:
     void add_direct(const PatchBuffers& patches, const GpuScene& scene, const std::vector<std::uint32_t>& sight,
                     bool half_texel);
     void clear_indirect() const;
-    void add_indirect(const PatchBuffers& patches, const std::vector<shared::PatchLight>& lights,
+    void add_indirect(const PatchBuffers& patches, const std::vector<LightNode>& lights,
                       const std::vector<std::uint32_t>& sight, FormFactor form_factor, bool half_texel);
 
     int side() const { return direct_.size().x; }  // M

@@ -90,7 +90,8 @@ const gl::Texture& RadiosityView::draw_lights(const VertexRadiosity& radiosity, 
     draw(radiosity, scene, camera, size, {kDimmed, kDimmed, 0.0f, kDimmed, false});
     std::vector<LinePoint> lines;
     const float longest = 0.06f * scene.bounds().longest_side();  // m
-    add_arrows(lines, radiosity.third(), longest, {0.15f, 0.4f, 4.0f});
+    const auto third = radiosity.third().begin();
+    add_arrows(lines, {third, third + std::ptrdiff_t(radiosity.third_at_once())}, longest, {0.15f, 0.4f, 4.0f});
     add_arrows(lines, radiosity.second(), longest, {0.1f, 3.0f, 0.2f});
     const glm::vec3 red(4.0f, 0.1f, 0.1f);
     for (const Light& light : scene.lights()) {
@@ -101,8 +102,9 @@ const gl::Texture& RadiosityView::draw_lights(const VertexRadiosity& radiosity, 
                 add_arrow(lines, light.position, way, longest, red);
             }
         } else {
-            const glm::vec3 from = light.type == LightType::spot ? light.position
-                                                                 : scene.bounds().center() - 6.0f * longest * light.direction;
+            const glm::vec3 from = light.type == LightType::spot
+                                       ? light.position
+                                       : scene.bounds().center() - 6.0f * longest * light.direction;
             add_arrow(lines, from, light.direction, 3.0f * longest, red);
         }
     }

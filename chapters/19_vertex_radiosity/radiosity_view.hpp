@@ -7,7 +7,8 @@
 namespace conebook {
 
 struct RadiosityViewParams {
-    int layer = 0;  // which light view the views ray_map and reduction show, 0 .. 65535; those of a point light are +x -x +y -y +z -z
+    int layer =
+        0;  // which light view the views ray_map and reduction show, 0 .. 65535; those of a point light are +x -x +y -y +z -z
 };
 void add_parameters(ParameterTable& table, RadiosityViewParams& params);
 

@@ -15,10 +15,13 @@ struct VertexRadiosityParams {
     PickParams pick;
     FurtherLightParams further;
     // Indirect bounces, -1: all. 0 lights the patches directly (step 1), 1 adds light of the patches picked and of emissive
-    // surfaces (step 2), 2 that of what their rays meet (step 3); further bounces are taken to look like the second.
+    // surfaces (step 2), 2 that of what their rays meet (step 3), and further bounces go on like that.
     int bounces = -1;
     // The document's number of steps, 1 .. 3; 0: as `bounces` asks.
     int steps = 0;
+    // Of a patch nearer to a light than this, in roots of the light's area, 0 .. 100, the texels of the light's cell light it
+    // in smaller groups: a disc is exact on its axis and from far away alone. 0: never, as in the document.
+    float near = 4.0f;
     int form_factor = int(FormFactor::exact);
     // Off: patches are drawn at the corners of the map's texels and read from their middles, as in the document.
     bool half_texel = true;
@@ -26,10 +29,6 @@ struct VertexRadiosityParams {
 void add_parameters(ParameterTable& table, VertexRadiosityParams& params);
 // The one place where steps become bounces; -1: all.
 int asked_bounces(const VertexRadiosityParams& params);
-
-// The flux of bounces 2, 3, ..., `bounces` (-1: all) together, for the flux of bounce 2 and what share of a bounce's flux
-// the next one has: (1 - share^(bounces - 1)) / (1 - share). At most 64 where nothing is absorbed.
-double further_bounces_factor(double share, int bounces);
 
 class VertexRadiosity {
 public:
@@ -48,7 +47,8 @@ public:
     const SceneTracer& tracer() const { return *tracer_; }
     const std::vector<LightView>& views() const { return views_; }
     const std::vector<PickedLight>& second() const { return second_; }  // lights of step 2
-    const std::vector<PickedLight>& third() const { return third_; }    // and of step 3
+    const std::vector<PickedLight>& third() const { return third_; }    // and of step 3, bounce by bounce
+    std::size_t third_at_once() const { return third_at_once_; }        // of `third`, those of bounce 2
     int cells() const { return cells_; }                                // of each view
     // Draws a view again, for those who want to see it; none when there are no views.
     const LightPicker* look(const GpuScene& scene, int view);
@@ -75,14 +75,16 @@ private:
     LightPicker picker_;
     std::vector<LightView> views_;
     std::vector<PickedLight> second_, third_;
-    glm::dvec3 reflected_{0.0}, share_{0.0};  // W; of a bounce's flux that the next one has
+    std::size_t third_at_once_ = 0;
+    glm::dvec3 reflected_{0.0};  // W
     int cells_ = 0;
     MadeFrom<float> mesh_of_;
     MadeFrom<Revision, Revision, bool> direct_of_;
-    MadeFrom<Revision, PickParams, int, bool> second_of_;
-    MadeFrom<Revision, FurtherLightParams, bool> third_of_;
-    MadeFrom<Revision, Revision, int, int, bool> indirect_of_;
-    Revision mesh_revision_ = 0, direct_revision_ = 0, second_revision_ = 0, third_revision_ = 0, indirect_revision_ = 0;
+    MadeFrom<Revision, PickParams, int, bool, bool> second_of_;
+    MadeFrom<Revision, FurtherLightParams, int> third_of_;
+    MadeFrom<Revision, Revision, float, int, bool> indirect_of_;
+    Revision mesh_revision_ = 0, direct_revision_ = 0, second_revision_ = 0, third_revision_ = 0,
+             indirect_revision_ = 0;
 };
 
 }  // namespace conebook

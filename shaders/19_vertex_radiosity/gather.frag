@@ -21,14 +21,19 @@ layout(location = 0) out vec4 irradiance;  // W/m^2
 
 const float kPi = 3.14159265358979;
 
-bool sees(int light) { return (sight[(light >> 5) * patch_count + patch_id] >> (light & 31) & 1u) != 0u; }
-
-#if !PUNCTUAL
+#if PUNCTUAL
+vec3 from_light(int i)
+{
+    LightSample light = sample_light(lights[i], position);
+    return light.irradiance * max(dot(normal, light.direction), 0.0);
+}
+#else
 // snippet: form_factor
 // What a disc of area A, radiance flux / (pi A), gives a patch at distance r: E = flux cos cos / (pi r^2 + A). Exact on
 // the disc's axis; without A it would grow without end where the two come close.
-vec3 from_patch(PatchLight light)
+vec3 from_light(int i)
 {
+    PatchLight light = patch_lights[i];
     vec3 way = light.position.xyz - position;
     float squared = max(dot(way, way), 1.0e-30);
     way *= inversesqrt(squared);
@@ -43,14 +48,10 @@ vec3 from_patch(PatchLight light)
 void main()
 {
     vec3 sum = vec3(0.0);
-    for (int i = first_light; area > 0.0 && i < end_light; ++i) {
-        if (!sees(i)) continue;
-#if PUNCTUAL
-        LightSample light = sample_light(lights[i], position);
-        sum += light.irradiance * max(dot(normal, light.direction), 0.0);
-#else
-        sum += from_patch(patch_lights[i]);
-#endif
-    }
+    // snippet: seen_lights
+    for (int word = first_light / 32; area > 0.0 && 32 * word < end_light; ++word)
+        for (uint seen = sight[word * patch_count + patch_id]; seen != 0u; seen &= seen - 1u)
+            sum += from_light(32 * word + findLSB(seen));
+    // end snippet
     irradiance = vec4(sum, 1.0);
 }

@@ -8,7 +8,7 @@ CONEBOOK_SHARED_BEGIN
 
 // One side of one vertex of the subdivided scene.
 struct Patch {
-    vec4 position;  // xyz: scene space, where light is computed; w: area, a third of the triangles round the vertex, m^2
+    vec4 position;  // xyz: scene space, the middle of its area; w: area, a third of the triangles round the vertex, m^2
     vec4 normal;    // xyz: unit, of the side
 };
 
