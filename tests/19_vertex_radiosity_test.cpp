@@ -192,12 +192,12 @@ TEST(FormFactors, OnTheAxisOfADiscExact)
 // Every patch of one face of a cube is a light; what the others get of its flux is the form factor.
 TEST(FormFactors, BetweenTheFacesOfACube)
 {
-    // Three faces are enough: that of the lights, the opposite one, one beside. 44 x 44 squares each.
+    // Three faces are enough: that of the lights, the opposite one, one beside. 56 x 56 squares each.
     SceneBuilder b;
     const int white = b.material(lambert(0.5f));
-    b.quad({0.5f, -0.5f, -0.5f}, {0, 0, 1}, {0, 1, 0}, white, 44);
-    b.quad({-0.5f, -0.5f, -0.5f}, {0, 1, 0}, {0, 0, 1}, white, 44);
-    b.quad({-0.5f, -0.5f, -0.5f}, {0, 0, 1}, {1, 0, 0}, white, 44);
+    b.quad({0.5f, -0.5f, -0.5f}, {0, 0, 1}, {0, 1, 0}, white, 56);
+    b.quad({-0.5f, -0.5f, -0.5f}, {0, 1, 0}, {0, 0, 1}, white, 56);
+    b.quad({-0.5f, -0.5f, -0.5f}, {0, 0, 1}, {1, 0, 0}, white, 56);
     const Lit lit(b.build(), with(1.0f, 0));
     const PatchMesh& mesh = lit.radiosity.mesh();
     std::vector<shared::PatchLight> lights;
