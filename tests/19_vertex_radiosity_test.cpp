@@ -1,56 +1,18 @@
-// Vertex radiosity against closed forms: form factors, flux that is kept, the reduction on the CPU, the mesh's edges.
+// Vertex radiosity against closed forms: form factors, flux that is kept, the reduction on the CPU.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <map>
 #include <numbers>
-#include <set>
 
-#include "19_vertex_radiosity/vertex_radiosity.hpp"
+#include "lit_patches.hpp"
 #include "program.hpp"
-#include "scene_builder.hpp"
 #include "temporary_folder.hpp"
-#include "test_gl.hpp"
 
 namespace conebook {
 namespace {
 
 constexpr double kPiD = std::numbers::pi;
-
-// All steps, without a window.
-struct Lit {
-    Lit(Scene source, const VertexRadiosityParams& params)
-        : gl(test_gl()), scene(std::move(source)), p(params), gpu(scene), radiosity(gl.shaders, scene, p)
-    {
-        radiosity.run([](const char*, Scope, const std::function<bool()>& work) { work(); }, gpu);
-    }
-    std::vector<glm::vec3> irradiance(const gl::Texture& map) const
-    {
-        const std::vector<float> values = gl::read_floats(map, 0, 4);
-        std::vector<glm::vec3> of_patches;
-        for (std::size_t i = 0; i < radiosity.mesh().patches.size(); ++i)
-            of_patches.emplace_back(values[4 * i], values[4 * i + 1], values[4 * i + 2]);
-        return of_patches;
-    }
-    std::vector<glm::vec3> direct() const { return irradiance(radiosity.map().direct()); }
-    std::vector<glm::vec3> indirect() const { return irradiance(radiosity.map().indirect()); }
-
-    TestGl& gl;  // first: there must be a context
-    Scene scene;
-    VertexRadiosityParams p;
-    GpuScene gpu;
-    VertexRadiosity radiosity;
-};
-
-VertexRadiosityParams with(float max_edge, int bounces = 1)
-{
-    VertexRadiosityParams params;
-    params.mesh.max_edge = max_edge;
-    params.bounces = bounces;
-    return params;
-}
 
 // What the patches of `scene` get of one disc.
 std::vector<glm::vec3> lit_by(const Lit& lit, const std::vector<shared::PatchLight>& lights, FormFactor form_factor)
@@ -62,107 +24,6 @@ std::vector<glm::vec3> lit_by(const Lit& lit, const std::vector<shared::PatchLig
     map.add_indirect(lit.radiosity.buffers(), nodes,
                      sight_of(lit.radiosity.tracer(), lit.radiosity.mesh().patches, nodes, 0.0f), form_factor, true);
     return lit.irradiance(map.indirect());
-}
-
-SceneBuilder room(float rho, float half = 1.0f)
-{
-    SceneBuilder b;
-    b.box(glm::vec3(-half), glm::vec3(half), b.material(lambert(rho)), true);
-    return b;
-}
-
-// --- The mesh
-
-using Place = std::array<float, 3>;
-Place place_of(const glm::vec3& p) { return {p.x, p.y, p.z}; }
-
-std::map<std::pair<Place, Place>, int> edges_of(const PatchMesh& mesh)
-{
-    std::map<std::pair<Place, Place>, int> edges;
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
-        for (std::size_t k = 0; k < 3; ++k) {
-            Place a = place_of(mesh.vertices[mesh.indices[i + k]].position);
-            Place b = place_of(mesh.vertices[mesh.indices[i + (k + 1) % 3]].position);
-            ++edges[a < b ? std::pair(a, b) : std::pair(b, a)];
-        }
-    return edges;
-}
-
-TEST(PatchMesh, EveryEdgeOfAClosedMeshHasTwoTriangles)
-{
-    for (const float max_edge : {1.0f, 0.31f, 0.17f}) {
-        SceneBuilder b = room(0.5f);
-        b.sphere({0.1f, 0, 0}, 0.4f, b.material(lambert(0.3f)), 6);
-        b.triangle({-0.9f, -0.9f, 0}, {0.9f, -0.8f, 0.1f}, {-0.8f, 0.7f, 0.3f}, 0);
-        const PatchMesh mesh = subdivide(b.build(), {max_edge});
-        double border_m = 0.0;
-        for (const auto& [edge, count] : edges_of(mesh)) {
-            const glm::vec3 a(edge.first[0], edge.first[1], edge.first[2]);
-            const glm::vec3 c(edge.second[0], edge.second[1], edge.second[2]);
-            EXPECT_LE(glm::length(a - c), 1.000001f * max_edge);
-            ASSERT_LE(count, 2);
-            if (count == 1) border_m += double(glm::length(a - c));
-        }
-        // Open is the lone triangle alone: its edges, however often halved.
-        const glm::vec3 a(-0.9f, -0.9f, 0), c(0.9f, -0.8f, 0.1f), d(-0.8f, 0.7f, 0.3f);
-        EXPECT_NEAR(border_m, double(glm::length(a - c) + glm::length(c - d) + glm::length(d - a)), 1e-5);
-    }
-}
-
-TEST(PatchMesh, AreaNormalsAndMaterialsAreKept)
-{
-    SceneBuilder b = room(0.5f);
-    b.sphere({0.1f, 0, 0}, 0.4f, b.material(emitter(2.0f, 0.3f)), 6);
-    const Scene scene = b.build();
-    const PatchMesh mesh = subdivide(scene, {0.13f});
-    ASSERT_EQ(mesh.draws.size(), scene.draws.size());
-    double whole = 0.0, emitted = 0.0;
-    for (std::size_t d = 0; d < mesh.draws.size(); ++d) {
-        const auto area = [](const auto& of, const Draw& draw) {
-            double sum = 0.0;
-            for (std::size_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3) {
-                const auto p = [&](std::size_t k) { return glm::dvec3(of.vertices[of.indices[i + k]].position); };
-                sum += 0.5 * glm::length(glm::cross(p(1) - p(0), p(2) - p(0)));
-            }
-            return sum;
-        };
-        EXPECT_EQ(mesh.draws[d].material, scene.draws[d].material);
-        const double before = area(scene, scene.draws[d]);
-        EXPECT_NEAR(area(mesh, mesh.draws[d]), before, 1e-6 * before);
-        whole += before;
-        if (d == 1) emitted = 2.0 * kPiD * before;
-    }
-    EXPECT_NEAR(mesh.area(), whole, 1e-5 * whole);
-    double flux = 0.0;
-    for (const glm::vec3& e : mesh.emitted) flux += double(e.x);
-    EXPECT_NEAR(flux, emitted, 1e-5 * emitted);  // pi Le A
-    for (const Vertex& v : mesh.vertices) ASSERT_NEAR(glm::length(v.normal), 1.0f, 1e-5f);
-    // The walls' normals are those of the walls: no vertex is shared over an edge of the room.
-    for (std::size_t i = mesh.draws[0].first_index; i < mesh.draws[0].index_count; i += 3) {
-        const auto v = [&](std::size_t k) { return mesh.vertices[mesh.indices[i + k]]; };
-        const glm::vec3 n = glm::cross(v(1).position - v(0).position, v(2).position - v(0).position);
-        for (std::size_t k = 0; k < 3; ++k) ASSERT_GT(glm::dot(glm::normalize(n), v(k).normal), 0.9999f);
-    }
-}
-
-TEST(PatchMesh, BothSidesOfASheetArePatches)
-{
-    Material sheet = lambert(0.5f);
-    sheet.double_sided = true;
-    SceneBuilder b;
-    b.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, b.material(sheet));
-    b.point_light({0, -1, 0}, glm::vec3(1.0f));
-    const Lit lit(b.build(), with(0.5f, 0));
-    const PatchMesh& mesh = lit.radiosity.mesh();
-    ASSERT_EQ(mesh.patches.size(), 2 * mesh.vertices.size());
-    EXPECT_NEAR(mesh.area(), 8.0, 1e-5);
-    const auto e = lit.direct();
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-        EXPECT_EQ(e[i].x, 0.0f);
-        // E = I cos / d^2 from below, where the back is.
-        const glm::dvec3 p(mesh.patches[i].position);
-        EXPECT_NEAR(e[i + mesh.vertices.size()].x, std::pow(1.0 + glm::dot(p, p), -1.5), 1e-4);
-    }
 }
 
 // --- Form factors
@@ -302,7 +163,8 @@ TEST(Flux, DroppedBordersLose28Of64CellsAndTheirLight)
     params.pick.borders = int(Borders::drop);
     const Lit lit(b.build(), params);
     EXPECT_EQ(lit.radiosity.second().size(), 6u * 36u);
-    // Solid angle of the inner square |x|, |y| < 3/4 of the face (appendix: atan(xy / sqrt(1 + x^2 + y^2)), four corners).
+    // Solid angle of the inner square |x|, |y| < 3/4 of the face (appendix: atan(xy / sqrt(1 + x^2 + y^2)), four
+    // corners).
     const double t = 0.75, kept = 6.0 * 4.0 * std::atan(t * t / std::sqrt(1.0 + 2.0 * t * t));
     const double flux = total_flux(lit.radiosity.second()).x;
     RecordProperty("borders_kept_percent", std::to_string(100.0 * kept / (4.0 * kPiD)));
@@ -349,7 +211,7 @@ TEST(Reduction, IsThatOfTheCpuBitForBit)
         ASSERT_EQ(picker->levels().size(), 4u);  // 64, 32, 16, 8
         for (std::size_t level = 1; level < 4; ++level) {
             const auto& before = picker->levels()[level - 1];
-            const auto &after = picker->levels()[level];
+            const auto& after = picker->levels()[level];
             const auto c = gl::read_floats(before.chosen, 0, 4), n = gl::read_floats(before.normal_energy, 0, 4),
                        f = gl::read_floats(before.flux_area, 0, 4);
             const auto c2 = gl::read_floats(after.chosen, 0, 4), n2 = gl::read_floats(after.normal_energy, 0, 4),
@@ -486,8 +348,9 @@ TEST(Whole, MeaninglessParametersAreRefused)
 {
     const TemporaryFolder folder;
     const std::filesystem::path picture = folder / "picture.png";
-    for (const char* wrong : {"max_edge=-1", "max_edge=0.0005", "m=48", "cells=3", "pick=first", "borders=wrap", "steps=4",
-                              "bounces=-2", "rays=-1", "ray=up", "near=-1", "form_factor=none", "emitter_lights=0"}) {
+    for (const char* wrong :
+         {"max_edge=-1", "max_edge=0.0005", "m=48", "cells=3", "pick=first", "borders=wrap", "steps=4", "bounces=-2",
+          "rays=-1", "ray=up", "near=-1", "form_factor=none", "emitter_lights=0"}) {
         const ProgramRun run = run_program("19_vertex_radiosity", std::string("--headless --size 16x16 --output '") +
                                                                       picture.string() + "' --set " + wrong);
         EXPECT_NE(run.code, 0) << wrong;
@@ -496,8 +359,8 @@ TEST(Whole, MeaninglessParametersAreRefused)
         EXPECT_NE(run.output.find(name), std::string::npos) << run.output;
         EXPECT_FALSE(std::filesystem::exists(picture)) << wrong;
     }
-    const ProgramRun run = run_program("19_vertex_radiosity", "--headless --size 16x16 --output '" + picture.string() +
-                                                                  "' --set m=16 cells=32");
+    const ProgramRun run = run_program(
+        "19_vertex_radiosity", "--headless --size 16x16 --output '" + picture.string() + "' --set m=16 cells=32");
     EXPECT_NE(run.code, 0);
     EXPECT_NE(run.output.find("cells=32"), std::string::npos) << run.output;
 }

@@ -122,8 +122,8 @@ std::vector<PickedLight> next_bounce(const SceneTracer& tracer, const std::vecto
         const PickedLight& from = lights[i / rays];
         const glm::vec3 normal(from.light.normal);
         // snippet: ray
-        // A diffuse light sends its flux by the cosine of the angle to its normal; so are the rays distributed, and each
-        // carries the same share.
+        // A diffuse light sends its flux by the cosine of the angle to its normal; so are the rays distributed, and
+        // each carries the same share.
         const glm::dvec2 u = even_point(bounce.first_ray + i);
         const double r = std::sqrt(u.x), turn = 2.0 * std::numbers::pi * u.y;
         glm::vec3 direction = Frame(normal).to_scene({r * std::cos(turn), r * std::sin(turn), std::sqrt(1.0 - u.x)});

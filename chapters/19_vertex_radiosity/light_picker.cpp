@@ -70,7 +70,8 @@ int cells_of(const PickParams& params, std::size_t views)
 {
     constexpr std::size_t kMost = 4096, kUsual = 2048;
     int cells = params.cells > 0 ? params.cells : std::min(32, params.m);
-    while (cells > 1 && views * std::size_t(cells) * std::size_t(cells) > (params.cells > 0 ? kMost : kUsual)) cells /= 2;
+    while (cells > 1 && views * std::size_t(cells) * std::size_t(cells) > (params.cells > 0 ? kMost : kUsual))
+        cells /= 2;
     return cells;
 }
 

@@ -11,10 +11,11 @@ enum class Borders : int { keep, drop };
 struct PickParams {
     // Texels along a side of what a light sees, 16 .. 512: the flux of a texel goes to one patch.
     int m = 64;
-    // Cells along a side, each of which makes one light, 1 .. 64 (the document has 8); halved until all views together make
-    // at most 4096 lights. 0: up to 32, as long as they make at most 2048.
+    // Cells along a side, each of which makes one light, 1 .. 64 (the document has 8); halved until all views
+    // together make at most 4096 lights. 0: up to 32, as long as they make at most 2048.
     int cells = 0;
-    // Which of a cell's texels becomes the light: the brightest patch (the document), or one drawn by its share of the flux.
+    // Which of a cell's texels becomes the light: the brightest patch (the document), or one drawn by its share of
+    // the flux.
     int pick = int(Pick::flux);
     // The document leaves out the cells on the border, and their light is lost.
     int borders = int(Borders::keep);
@@ -57,8 +58,8 @@ public:
     // What all cells reflect, W, also those that `borders` leaves out.
     glm::dvec3 reflected_flux() const;
 
-    // A level of the last look, 0: the map itself, halved from one to the next. RGBA32F: position and number of the patch
-    // (-1: none); normal and mean irradiance (-1: none); flux and area.
+    // A level of the last look, 0: the map itself, halved from one to the next. RGBA32F: position and number of the
+    // patch (-1: none); normal and mean irradiance (-1: none); flux and area.
     struct Level {
         gl::Texture chosen, normal_energy, flux_area;
         gl::Framebuffer target;

@@ -84,7 +84,8 @@ private:
     }
 
     // snippet: split
-    // Adds what becomes of a triangle; says whether it was cut. The first corner is turned so that there are three cases.
+    // Adds what becomes of a triangle; says whether it was cut. The first corner is turned so that there are three
+    // cases.
     bool split(const Corners& t, std::vector<Corners>& out)
     {
         bool cut[3];
@@ -150,10 +151,10 @@ glm::vec3 mean_emission(const Scene& scene, const Material& material, const Patc
     return sum / (kGrid * (kGrid + 1) / 2.0f);
 }
 
-// Light is computed in the middle of a patch: at its vertex, unless that is on an edge, where a point of the floor would be in
-// the wall as well.
-// A patch is of each of its triangles the third that is nearest to the vertex, the quadrangle over the middles of two edges
-// and of the triangle; its centroid lies 7/12 of the way from the vertex to the triangle's.
+// Light is computed in the middle of a patch: at its vertex, unless that is on an edge, where a point of the floor
+// would be in the wall as well. A patch is of each of its triangles the third that is nearest to the vertex, the
+// quadrangle over the middles of two edges and of the triangle; its centroid lies 7/12 of the way from the vertex to
+// the triangle's.
 constexpr float kWayToCenter = 7.0f / 12.0f;
 
 void measure(const Scene& scene, PatchMesh& mesh)
@@ -188,11 +189,11 @@ void measure(const Scene& scene, PatchMesh& mesh)
         const glm::vec3 normal = side < count ? v.normal : -v.normal;
         glm::vec3 to_middle(0.0f);
         if (patch.position.w > 0.0f) to_middle = moments[side % count] / patch.position.w;
-        // In the tangent plane, so as not to lie within what bulges; over it in a hollow, where the plane is behind the surface.
+        // In the tangent plane, so as not to lie within what bulges; over it in a hollow, where the plane is behind
+        // the surface.
         const float height = glm::dot(to_middle, normal);
         const glm::vec3 level = to_middle - height * normal;
-        patch.position =
-            glm::vec4(v.position + kWayToCenter * (height < 0.0f ? level : to_middle), patch.position.w);
+        patch.position = glm::vec4(v.position + kWayToCenter * (height < 0.0f ? level : to_middle), patch.position.w);
         patch.normal = glm::vec4(normal, 0.0f);
     }
 }

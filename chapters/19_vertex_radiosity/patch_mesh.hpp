@@ -10,14 +10,15 @@
 namespace conebook {
 
 struct PatchMeshParams {
-    // Longest edge of a triangle, m, 0 .. 1e6: light that changes within it is lost. 0: a 16th of the scene's longest side.
+    // Longest edge of a triangle, m, 0 .. 1e6: light that changes within it is lost. 0: a 16th of the scene's longest
+    // side.
     float max_edge = 0.0f;
 };
 void add_parameters(ParameterTable& table, PatchMeshParams& params);
 
-// Vertex i is patch i. Where some material has two sides, patch back_offset() + i is the other side of vertex i; without
-// one there are no such patches. Vertices at one place that differ in normal, material or texture coordinates are several
-// patches: light has an edge there, or they just have the same.
+// Vertex i is patch i. Where some material has two sides, patch back_offset() + i is the other side of vertex i;
+// without one there are no such patches. Vertices at one place that differ in normal, material or texture coordinates
+// are several patches: light has an edge there, or they just have the same.
 struct PatchMesh {
     std::vector<Vertex> vertices;        // scene space
     std::vector<std::uint32_t> indices;  // triangle list, wound as in the scene

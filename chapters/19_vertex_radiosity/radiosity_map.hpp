@@ -1,4 +1,5 @@
-// The radiosity map: a texture with the irradiance of every patch, and the patches and triangles on the GPU that it is for.
+// The radiosity map: a texture with the irradiance of every patch, and the patches and triangles on the GPU that it
+// is for.
 #pragma once
 
 #include "19_vertex_radiosity/patch_mesh.hpp"
@@ -16,8 +17,9 @@ public:
 
     // Every patch as a point: attributes 0 position, 1 normal of shared::Patch.
     void draw_points(const gl::Program& program) const;
-    // Every triangle, material by material as GpuScene::draw; attributes as there. Sets first_triangle. `scene` is the one
-    // that the mesh was made from. Culling::none and backs: only sides that have no material are left out, or only others.
+    // Every triangle, material by material as GpuScene::draw; attributes as there. Sets first_triangle. `scene` is
+    // the one that the mesh was made from. Culling::none and backs: only sides that have no material are left out, or
+    // only others.
     void draw(const gl::Program& program, const GpuScene& scene, GLenum culled_of_single_sided) const;
     // For shaders that include 19_vertex_radiosity/patches.glsl, with the triangles at kIndexBinding.
     void bind() const;

@@ -9,8 +9,8 @@
 
 namespace conebook {
 
-// Bit (light & 31) of word (light / 32) * patches.size() + patch. Patches without area see nothing, and nobody sees a light
-// below his horizon or from below the light's own. On all cores; the bits do not depend on their number.
+// Bit (light & 31) of word (light / 32) * patches.size() + patch. Patches without area see nothing, and nobody sees a
+// light below his horizon or from below the light's own. On all cores; the bits do not depend on their number.
 std::vector<std::uint32_t> sight_of(const SceneTracer& tracer, const std::vector<shared::Patch>& patches,
                                     const std::vector<Light>& lights);
 
@@ -21,8 +21,8 @@ struct LightNode {
     bool is_root = true;
 };
 
-// Of a patch that is nearer to a light than `near` times the root of its area, the bits of the light's parts, asked in the
-// same way, stand for the light's.
+// Of a patch that is nearer to a light than `near` times the root of its area, the bits of the light's parts, asked
+// in the same way, stand for the light's.
 std::vector<std::uint32_t> sight_of(const SceneTracer& tracer, const std::vector<shared::Patch>& patches,
                                     std::span<const LightNode> lights, float near);
 

@@ -7,7 +7,6 @@
 namespace conebook {
 namespace {
 
-
 constexpr std::size_t kMostNodes = 32768;  // with their parts, as long as there are parts
 constexpr std::size_t kMostThird = 8192;   // lights of all bounces from the second on
 constexpr int kMostBounces = 64;
@@ -143,7 +142,8 @@ bool VertexRadiosity::ray_step()
     std::vector<PickedLight> last = second_;
     NextBounce next;
     for (; next.number <= bounces && !last.empty() && third_.size() < kMostThird; ++next.number) {
-        const std::size_t rays = last.size() * std::size_t(next.number == 2 ? rays_of(params_.further, last.size()) : 1);
+        const std::size_t rays =
+            last.size() * std::size_t(next.number == 2 ? rays_of(params_.further, last.size()) : 1);
         last = next_bounce(*tracer_, last, params_.further, mesh_.area(), next);
         next.first_ray += rays;
         third_.insert(third_.end(), last.begin(), last.end());
@@ -223,7 +223,8 @@ std::vector<Need> VertexRadiosity::needs() const
              : emitting == 0 ? "nothing shines"
                              : number_of(emitting, "patches shine")},
             {"rays of lights", third && !second_.empty(),
-             third ? number_of(second_.size(), "lights send ") + std::to_string(rays_of(params_.further, second_.size())) + " each"
+             third ? number_of(second_.size(), "lights send ") +
+                         std::to_string(rays_of(params_.further, second_.size())) + " each"
                    : "bounces=" + std::to_string(bounces) + ": at most one is asked for"},
             {"two sides of patches", mesh_.has_two_sides,
              mesh_.has_two_sides ? "some material is double-sided" : "no material is double-sided"}};

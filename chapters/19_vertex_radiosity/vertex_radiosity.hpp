@@ -1,4 +1,5 @@
-// All of it, step by step: the lights light the patches, some patches become lights, and some of those that these light again.
+// All of it, step by step: the lights light the patches, some patches become lights, and some of those that these
+// light again.
 #pragma once
 
 #include <functional>
@@ -14,13 +15,13 @@ struct VertexRadiosityParams {
     PatchMeshParams mesh;
     PickParams pick;
     FurtherLightParams further;
-    // Indirect bounces, -1: all. 0 lights the patches directly (step 1), 1 adds light of the patches picked and of emissive
-    // surfaces (step 2), 2 that of what their rays meet (step 3), and further bounces go on like that.
+    // Indirect bounces, -1: all. 0 lights the patches directly (step 1), 1 adds light of the patches picked and of
+    // emissive surfaces (step 2), 2 that of what their rays meet (step 3), and further bounces go on like that.
     int bounces = -1;
     // The document's number of steps, 1 .. 3; 0: as `bounces` asks.
     int steps = 0;
-    // Of a patch nearer to a light than this, in roots of the light's area, 0 .. 100, the texels of the light's cell light it
-    // in smaller groups: a disc is exact on its axis and from far away alone. 0: never, as in the document.
+    // Of a patch nearer to a light than this, in roots of the light's area, 0 .. 100, the texels of the light's cell
+    // light it in smaller groups: a disc is exact on its axis and from far away alone. 0: never, as in the document.
     float near = 4.0f;
     int form_factor = int(FormFactor::exact);
     // Off: patches are drawn at the corners of the map's texels and read from their middles, as in the document.

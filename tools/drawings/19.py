@@ -4,8 +4,8 @@ from drawing import BLUE, GREEN, GREY, INK, LIGHT, ORANGE, PALE, RED, Drawing
 
 def split():
     """Edges are cut by their own length, so two triangles agree on the edge that they share."""
-    d = Drawing("Left: one triangle is cut and its neighbour is not, and a vertex lies on an edge. Right: the shared edge is cut "
-                "for both", -0.3, -1.1, 13.4, 4.4)
+    d = Drawing("Left: one triangle is cut and its neighbour is not, and a vertex lies on an edge. "
+                "Right: the shared edge is cut for both", -0.3, -1.1, 13.4, 4.4)
     for x, agree in ((0.0, False), (7.2, True)):
         a, b, c, e = (x + 0.2, 1.6), (x + 2.8, 0.2), (x + 2.8, 3.8), (x + 5.4, 2.4)
         d.polygon([a, b, c], INK, PALE[BLUE])
@@ -19,14 +19,15 @@ def split():
         d.dot(bc, GREEN if agree else RED, 6)
         for p in (a, b, c, e, ab, ca):
             d.dot(p)
-        d.label((x + 2.8, -0.3), "cut by its own length:\nthe same for both" if agree else "cut by the triangle's size:\na T-junction",
-                GREEN if agree else RED, place="below", size=14)
+        said = "cut by its own length:\nthe same for both" if agree else "cut by the triangle's size:\na T-junction"
+        d.label((x + 2.8, -0.3), said, GREEN if agree else RED, place="below", size=14)
     return d
 
 
 def patch():
     """The patch of a vertex: a third of each triangle round it. On an edge its middle lies off the vertex."""
-    d = Drawing("The patch of a vertex is a third of each of its triangles; on a border its middle is inside", -0.3, -1.0, 11.6, 4.6)
+    d = Drawing("The patch of a vertex is a third of each of its triangles; on a border its middle is inside",
+                -0.3, -1.0, 11.6, 4.6)
 
     def fan(origin, ring, closed, color):
         corners = [(origin[0] + x, origin[1] + y) for x, y in ring]
@@ -60,8 +61,8 @@ def patch():
 
 def cell():
     """Of the patches in a light's cell one becomes a light with the flux of all."""
-    d = Drawing("A light's cell covers several texels; the brightest lies to one side, one drawn by flux is on the average in the "
-                "middle", -0.4, -0.5, 13.0, 5.2)
+    d = Drawing("A light's cell covers several texels; the brightest lies to one side, one drawn by flux is on the "
+                "average in the middle", -0.4, -0.5, 13.0, 5.2)
     d.line((0, 0), (12.4, 0), INK, 2)
     light = (3.0, 4.6)
     d.dot(light, ORANGE, 7)
@@ -79,6 +80,5 @@ def cell():
     for x in (3.55, 4.85, 6.7):
         d.arrow((x, 0), (x, 1.0), BLUE, 1.5, dashes="4 3")
     d.label((7.0, 0.75), "flux: any of them, by\nits share of the flux", BLUE, "start", size=14)
-    d.circle((10.6, 0.0), 0.0, GREY)
     d.label((10.4, 3.2), "the light gets the flux\nof the whole cell,\nand its area as a disc", INK, size=14)
     return d
