@@ -27,7 +27,7 @@ def split():
 def patch():
     """The patch of a vertex: a third of each triangle round it. On an edge its middle lies off the vertex."""
     d = Drawing("The patch of a vertex is a third of each of its triangles; on a border its middle is inside",
-                -0.3, -1.0, 11.6, 4.6)
+                -0.3, -1.0, 13.0, 4.6)
 
     def fan(origin, ring, closed, color):
         corners = [(origin[0] + x, origin[1] + y) for x, y in ring]
