@@ -46,11 +46,11 @@ void add_parameters(ParameterTable& table, FurtherLightParams& params)
     table.add("rays", params.rays, 0, 64, "", "rays of each light of step 2; 0: by the number of lights");
 }
 
-int rays_of(const FurtherLightParams& params, std::size_t lights)
+int rays_of(const FurtherLightParams& params, std::size_t lights, std::size_t patches)
 {
-    constexpr std::size_t kUsual = 2048, kMost = 16;
-    return params.rays > 0 ? params.rays
-                           : int(std::clamp(kUsual / std::max<std::size_t>(lights, 1), std::size_t(1), kMost));
+    constexpr std::size_t kMost = 16;
+    if (params.rays > 0) return params.rays;
+    return int(std::clamp(usual_lights(patches) / std::max<std::size_t>(lights, 1), std::size_t(1), kMost));
 }
 
 glm::dvec3 total_flux(const std::vector<PickedLight>& lights)
@@ -113,10 +113,10 @@ std::vector<PickedLight> emitter_lights(const PatchMesh& mesh, const FurtherLigh
 }
 
 std::vector<PickedLight> next_bounce(const SceneTracer& tracer, const std::vector<PickedLight>& lights,
-                                     const FurtherLightParams& params, double mesh_area, NextBounce bounce)
+                                     const FurtherLightParams& params, const PatchMesh& mesh, NextBounce bounce)
 {
     std::vector<PickedLight> met;
-    const std::size_t rays = bounce.number == 2 ? std::size_t(rays_of(params, lights.size())) : 1;
+    const std::size_t rays = bounce.number == 2 ? std::size_t(rays_of(params, lights.size(), mesh.patches.size())) : 1;
     double kept = 0.5;
     for (std::size_t i = 0; i < lights.size() * rays; ++i) {
         const PickedLight& from = lights[i / rays];
@@ -152,8 +152,8 @@ std::vector<PickedLight> next_bounce(const SceneTracer& tracer, const std::vecto
         met.push_back(picked);
     }
     // Each stands for its share of all surfaces, but for no more than its own ray can have reached.
-    for (PickedLight& picked : met)
-        picked.light.position.w = std::min(picked.light.position.w, float(mesh_area / double(met.size())));
+    const float share = float(mesh.area() / std::max(double(met.size()), 1.0));
+    for (PickedLight& picked : met) picked.light.position.w = std::min(picked.light.position.w, share);
     return met;
 }
 

@@ -13,14 +13,14 @@ struct FurtherLightParams {
     int emitter_lights = 256;
     // Which way a light sends its rays: about its normal, as a diffuse patch does, or mirrored, as in the document.
     int ray = int(RayDirection::cosine);
-    // Rays of a light of step 2, each of which makes a light of the next bounce, 1 .. 64 (the document has 1). 0: up
-    // to 16, as long as there are at most 2048.
+    // Rays of a light of step 2, each of which makes a light of the next bounce, 1 .. 64 (the document has 1). 0: up to
+    // 16, as long as there are no more than usual_lights().
     int rays = 0;
     bool operator==(const FurtherLightParams&) const = default;
 };
 void add_parameters(ParameterTable& table, FurtherLightParams& params);
 // Rays of each of so many lights of step 2.
-int rays_of(const FurtherLightParams& params, std::size_t lights);
+int rays_of(const FurtherLightParams& params, std::size_t lights, std::size_t patches);
 
 // Emissive patches, one light each, or runs of neighbours of equal flux whose parts they are. Their sum is what the
 // mesh emits.
@@ -34,7 +34,7 @@ struct NextBounce {
     std::size_t first_ray = 0;
 };
 std::vector<PickedLight> next_bounce(const SceneTracer& tracer, const std::vector<PickedLight>& lights,
-                                     const FurtherLightParams& params, double mesh_area, NextBounce bounce);
+                                     const FurtherLightParams& params, const PatchMesh& mesh, NextBounce bounce);
 
 // W.
 glm::dvec3 total_flux(const std::vector<PickedLight>& lights);

@@ -66,12 +66,18 @@ void check(const PickParams& params)
                                  " are more than the texels, m=" + std::to_string(params.m));
 }
 
-int cells_of(const PickParams& params, std::size_t views)
+std::size_t usual_lights(std::size_t patches)
 {
-    constexpr std::size_t kMost = 4096, kUsual = 2048;
+    constexpr std::size_t kMostPairs = std::size_t(1) << 25;  // rays, of which a core traces a few million a second
+    return std::clamp(kMostPairs / std::max<std::size_t>(patches, 1), std::size_t(64), std::size_t(2048));
+}
+
+int cells_of(const PickParams& params, std::size_t views, std::size_t patches)
+{
+    constexpr std::size_t kMost = 4096;
+    const std::size_t most = params.cells > 0 ? kMost : usual_lights(patches);
     int cells = params.cells > 0 ? params.cells : std::min(32, params.m);
-    while (cells > 1 && views * std::size_t(cells) * std::size_t(cells) > (params.cells > 0 ? kMost : kUsual))
-        cells /= 2;
+    while (cells > 1 && views * std::size_t(cells) * std::size_t(cells) > most) cells /= 2;
     return cells;
 }
 

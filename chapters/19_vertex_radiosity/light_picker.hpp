@@ -24,8 +24,10 @@ struct PickParams {
 void add_parameters(ParameterTable& table, PickParams& params);
 // Throws std::runtime_error, which names both, when there are more cells than texels.
 void check(const PickParams& params);
+// How many lights a bounce has where nobody says: 2048, and fewer where so many patches would send a ray to each. 64 at least.
+std::size_t usual_lights(std::size_t patches);
 // Cells along a side of each of so many views.
-int cells_of(const PickParams& params, std::size_t views);
+int cells_of(const PickParams& params, std::size_t views, std::size_t patches);
 
 // A map of what a light sees: a point light has six, or one where it is so far outside that it holds the whole scene.
 struct LightView {

@@ -118,7 +118,7 @@ bool VertexRadiosity::pick_step(const GpuScene& scene)
     reflected_ = glm::dvec3(0.0);
     if (used) {
         views_ = light_views(scene.lights(), scene.bounds());
-        cells_ = cells_of(params_.pick, views_.size());
+        cells_ = cells_of(params_.pick, views_.size(), mesh_.patches.size());
         const int depth = in_parts ? depth_of_parts(views_.size() * std::size_t(cells_ * cells_)) : 0;
         for (std::size_t i = 0; i < views_.size(); ++i) {
             picker_.look(scene, views_[i], int(i), buffers_, map_, params_.pick, cells_);
@@ -133,6 +133,8 @@ bool VertexRadiosity::pick_step(const GpuScene& scene)
     return used;
 }
 
+int VertexRadiosity::rays() const { return rays_of(params_.further, second_.size(), mesh_.patches.size()); }
+
 bool VertexRadiosity::ray_step()
 {
     const int bounces = asked_bounces(params_) < 0 ? kMostBounces : asked_bounces(params_);
@@ -142,10 +144,9 @@ bool VertexRadiosity::ray_step()
     std::vector<PickedLight> last = second_;
     NextBounce next;
     for (; next.number <= bounces && !last.empty() && third_.size() < kMostThird; ++next.number) {
-        const std::size_t rays =
-            last.size() * std::size_t(next.number == 2 ? rays_of(params_.further, last.size()) : 1);
-        last = next_bounce(*tracer_, last, params_.further, mesh_.area(), next);
-        next.first_ray += rays;
+        const std::size_t sent = last.size() * std::size_t(next.number == 2 ? rays() : 1);
+        last = next_bounce(*tracer_, last, params_.further, mesh_, next);
+        next.first_ray += sent;
         third_.insert(third_.end(), last.begin(), last.end());
         if (next.number == 2) third_at_once_ = third_.size();
     }
@@ -223,8 +224,7 @@ std::vector<Need> VertexRadiosity::needs() const
              : emitting == 0 ? "nothing shines"
                              : number_of(emitting, "patches shine")},
             {"rays of lights", third && !second_.empty(),
-             third ? number_of(second_.size(), "lights send ") +
-                         std::to_string(rays_of(params_.further, second_.size())) + " each"
+             third ? number_of(second_.size(), "lights send ") + std::to_string(rays()) + " each"
                    : "bounces=" + std::to_string(bounces) + ": at most one is asked for"},
             {"two sides of patches", mesh_.has_two_sides,
              mesh_.has_two_sides ? "some material is double-sided" : "no material is double-sided"}};

@@ -64,6 +64,7 @@ private:
     bool mesh_step();
     bool direct_step(const GpuScene& scene);
     bool pick_step(const GpuScene& scene);
+    int rays() const;  // of each light of step 2
     bool ray_step();
     bool indirect_step();
 
