@@ -118,7 +118,7 @@ TEST(Flux, ClosedRoomKeepsItsShare)
     b.point_light({0.3f, 0.2f, -0.4f}, light);
     for (const Pick pick : {Pick::maximum, Pick::flux}) {
         VertexRadiosityParams params = with(0.25f, 2);
-        params.pick.pick = int(pick);
+        params.pick.pick = pick;
         params.pick.cells = 8;
         params.further.rays = 1;
         const Lit lit(b.build(), params);
@@ -160,7 +160,7 @@ TEST(Flux, DroppedBordersLose28Of64CellsAndTheirLight)
     b.point_light({0, 0, 0}, glm::vec3(1.0f));
     VertexRadiosityParams params = with(0.25f);
     params.pick.cells = 8;
-    params.pick.borders = int(Borders::drop);
+    params.pick.borders = Borders::drop;
     const Lit lit(b.build(), params);
     EXPECT_EQ(lit.radiosity.second().size(), 6u * 36u);
     // Solid angle of the inner square |x|, |y| < 3/4 of the face (appendix: atan(xy / sqrt(1 + x^2 + y^2)), four
@@ -202,7 +202,7 @@ TEST(Reduction, IsThatOfTheCpuBitForBit)
     b.box({-0.3f, -1, -0.3f}, {0.2f, 0, 0.3f}, b.material(lambert({0.2f, 0.6f, 0.9f})));
     b.point_light({0.3f, 0.2f, -0.4f}, {3, 2, 1});
     VertexRadiosityParams params = with(0.25f);
-    params.pick.pick = int(Pick::maximum);
+    params.pick.pick = Pick::maximum;
     params.pick.cells = 8;
     Lit lit(b.build(), params);
     for (int view = 0; view < 6; ++view) {
@@ -315,15 +315,15 @@ TEST(Whole, ParametersActLive)
         {"max_edge", [](auto& p) { p.mesh.max_edge = 0.6f; }},
         {"m", [](auto& p) { p.pick.m = 32; }},
         {"cells", [](auto& p) { p.pick.cells = 4; }},
-        {"pick", [](auto& p) { p.pick.pick = int(Pick::maximum); }},
-        {"borders", [](auto& p) { p.pick.borders = int(Borders::drop); }},
+        {"pick", [](auto& p) { p.pick.pick = Pick::maximum; }},
+        {"borders", [](auto& p) { p.pick.borders = Borders::drop; }},
         {"emitter_lights", [](auto& p) { p.further.emitter_lights = 3; }},
-        {"ray", [](auto& p) { p.further.ray = int(RayDirection::mirror); }},
+        {"ray", [](auto& p) { p.further.ray = RayDirection::mirror; }},
         {"rays", [](auto& p) { p.further.rays = 3; }},
         {"bounces", [](auto& p) { p.bounces = 1; }},
         {"steps", [](auto& p) { p.steps = 1; }},
         {"near", [](auto& p) { p.near = 0.0f; }},
-        {"form_factor", [](auto& p) { p.form_factor = int(FormFactor::published); }},
+        {"form_factor", [](auto& p) { p.form_factor = FormFactor::published; }},
         {"half_texel", [](auto& p) { p.half_texel = false; }}};
     const auto before = lit.indirect();
     for (const auto& [name, change] : changes) {

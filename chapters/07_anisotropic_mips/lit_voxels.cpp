@@ -21,14 +21,16 @@ LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxel
 {
 }
 
-void LitVoxels::shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps)
+void LitVoxels::voxelize(App& app, const GpuScene& scene)
 {
-    // Triangles -> occupied voxels -> mean material of their faces; all that follows from them runs when they do.
     grid_.fit(scene.bounds(), params_.grid);
     if (params_.update == Update::always) voxelizer_.forget();
     app.pass("voxelize", Scope::scene, [&] { return voxelizer_.run(scene, grid_, params_.voxelizer); });
     app.pass("average", Scope::scene, [&] { return faces_.run(scene, grid_, voxelizer_); });
-    // Material and lights -> radiance of the faces.
+}
+
+void LitVoxels::shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps)
+{
     app.pass("voxel shading", Scope::light,
              [&] { return shading_.run(scene, grid_, voxelizer_, faces_, shadow_maps, params_.shading); });
 }
@@ -68,7 +70,7 @@ std::vector<Count> LitVoxels::counts() const
             {"voxel size", grid_.voxel_size_m(), "m"},
             {"occupied voxels", double(counted.voxels), ""},
             {"occupied faces", double(counted.faces), ""},
-            {"fragments", double(voxelizer_.fragment_count()), ""},
+            {"fragments", double(voxelizer_.fragments().count()), ""},
             {"triangles without area", double(counted.degenerate), ""}};
 }
 

@@ -22,6 +22,8 @@ class LitVoxels {
 public:
     // `params` must outlive this.
     LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params);
+    // Triangles -> occupied voxels -> mean material of their faces; all that follows from them runs when they do.
+    void voxelize(App& app, const GpuScene& scene);
     // What the faces reflect of the light that comes straight from the lights.
     void shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps);
     // What the voxels cover, without light: for rays that start before the light is known.
@@ -30,6 +32,14 @@ public:
     void filter(App& app, LightPart part = LightPart::all);
     void filter(App& app, const gl::Buffer& reflected, Revision revision, LightPart part);
 
+    // For who makes voxels and faces otherwise than voxelize() does.
+    struct Parts {
+        const LitVoxelParams& params;
+        VoxelGrid& grid;
+        ConservativeVoxelizer& voxelizer;
+        VoxelFaces& faces;
+    };
+    Parts parts() { return {params_, grid_, voxelizer_, faces_}; }
     const VoxelGrid& grid() const { return grid_; }
     const ConservativeVoxelizer& voxelizer() const { return voxelizer_; }
     const VoxelFaces& faces() const { return faces_; }

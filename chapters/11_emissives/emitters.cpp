@@ -17,12 +17,12 @@ void add_parameters(ParameterTable& table, EmitterParams& params)
     table.add("aimed_rays", params.aimed_rays, 0, 64, "", "rays aimed at emitters; 0: cones meet them by chance");
 }
 
-bool Emitters::run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading,
-                   const EmitterParams& params)
+bool Emitters::run(const GpuScene& gpu_scene, const VoxelGrid& grid, const VoxelFaces& faces,
+                   const VoxelShading& shading, const EmitterParams& params)
 {
     if (!made_from_.differs(faces.revision(), params)) return false;
     ++revision_;
-    if (parts_made_from_.differs(grid.revision(), params)) {
+    if (parts_made_from_.differs(grid.revision(), gpu_scene.geometry_revision(), params)) {
         params_ = params;
         emitters_ = make_emitter_parts(scene_, grid.data(), kSets * params.aimed_rays, kSets);
         apart_ = params.aimed_rays > 0 && shine() && emitters_.emitting_share < kLargeShare;

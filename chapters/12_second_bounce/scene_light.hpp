@@ -19,8 +19,18 @@ public:
     // `shaders`, `source` and `params` must outlive this.
     SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params);
 
-    void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan);
+    void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan)
+    {
+        run(app, scene, cones, plan, [&] {
+            voxels_.voxelize(app, scene);
+            return FaceChange{};
+        });
+    }
+    // `voxelize`: does the same for voxels(), and says what has changed, if it knows.
+    void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan,
+             const std::function<FaceChange()>& voxelize);
 
+    LitVoxels& voxels() { return voxels_; }
     const LitVoxels& voxels() const { return voxels_; }
     const ShadowMaps& shadow_maps() const { return shadow_maps_; }
     const Emitters& emitters() const { return emitters_; }

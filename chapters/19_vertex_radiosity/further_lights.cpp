@@ -127,7 +127,7 @@ std::vector<PickedLight> next_bounce(const SceneTracer& tracer, const std::vecto
         const glm::dvec2 u = even_point(bounce.first_ray + i);
         const double r = std::sqrt(u.x), turn = 2.0 * std::numbers::pi * u.y;
         glm::vec3 direction = Frame(normal).to_scene({r * std::cos(turn), r * std::sin(turn), std::sqrt(1.0 - u.x)});
-        if (params.ray == int(RayDirection::mirror))
+        if (params.ray == RayDirection::mirror)
             direction = from.incoming == glm::vec3(0.0f) ? normal : glm::reflect(from.incoming, normal);
         const auto hit =
             tracer.intersect({glm::vec3(from.light.position) + tracer.surface_offset() * normal, direction});

@@ -12,7 +12,7 @@ struct FurtherLightParams {
     // Most lights that emissive surfaces become, 1 .. 4096; where they have more patches, neighbours share one.
     int emitter_lights = 256;
     // Which way a light sends its rays: about its normal, as a diffuse patch does, or mirrored, as in the document.
-    int ray = int(RayDirection::cosine);
+    RayDirection ray = RayDirection::cosine;
     // Rays of a light of step 2, each of which makes a light of the next bounce, 1 .. 64 (the document has 1). 0: up to
     // 16, as long as there are no more than usual_lights().
     int rays = 0;

@@ -176,7 +176,7 @@ void LightPicker::look(const GpuScene& scene, const LightView& view, int number,
         before.chosen.bind(GLuint(shared::kFirstFreeUnit));
         before.normal_energy.bind(GLuint(shared::kFirstFreeUnit + 1));
         before.flux_area.bind(GLuint(shared::kFirstFreeUnit + 2));
-        reduce_.set("pick", params.pick);
+        reduce_.set("pick", int(params.pick));
         reduce_.set("seed", GLuint(number) * 0x632be5abu + GLuint(i) * 0x85157af5u);
         gl::draw_pixels(reduce_, levels_[i].target, no_vertices_, levels_[i].chosen.size_2d());
     }
@@ -241,8 +241,8 @@ std::vector<PickedLight> LightPicker::lights(const LightView& view, const GpuSce
     for (int y = 0; y < cells; ++y)
         for (int x = 0; x < cells; ++x) {
             const bool on_border = x == 0 || y == 0 || x == cells - 1 || y == cells - 1;
-            if (params.borders == int(Borders::drop) && on_border) continue;
-            add_light(lights, levels, levels.size() - 1, x, y, mesh, Pick(params.pick),
+            if (params.borders == Borders::drop && on_border) continue;
+            add_light(lights, levels, levels.size() - 1, x, y, mesh, params.pick,
                       scene.lights()[std::size_t(view.light)]);
         }
     return lights;

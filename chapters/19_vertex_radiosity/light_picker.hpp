@@ -16,9 +16,9 @@ struct PickParams {
     int cells = 0;
     // Which of a cell's texels becomes the light: the brightest patch (the document), or one drawn by its share of
     // the flux.
-    int pick = int(Pick::flux);
+    Pick pick = Pick::flux;
     // The document leaves out the cells on the border, and their light is lost.
-    int borders = int(Borders::keep);
+    Borders borders = Borders::keep;
     bool operator==(const PickParams&) const = default;
 };
 void add_parameters(ParameterTable& table, PickParams& params);

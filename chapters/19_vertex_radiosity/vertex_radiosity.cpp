@@ -163,8 +163,8 @@ bool VertexRadiosity::indirect_step()
         std::max<std::size_t>(kSightBytes / sizeof(GLuint) * 32 / std::max<std::size_t>(mesh_.patches.size(), 1), 1);
     std::vector<LightNode> nodes;
     const auto light_patches = [&] {
-        map_.add_indirect(buffers_, nodes, sight_of(*tracer_, mesh_.patches, nodes, params_.near),
-                          FormFactor(params_.form_factor), params_.half_texel);
+        map_.add_indirect(buffers_, nodes, sight_of(*tracer_, mesh_.patches, nodes, params_.near), params_.form_factor,
+                          params_.half_texel);
         nodes.clear();
     };
     for (const std::vector<PickedLight>* lights : {&second_, &third_})

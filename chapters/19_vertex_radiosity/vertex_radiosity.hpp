@@ -23,7 +23,7 @@ struct VertexRadiosityParams {
     // Of a patch nearer to a light than this, in roots of the light's area, 0 .. 100, the texels of the light's cell
     // light it in smaller groups: a disc is exact on its axis and from far away alone. 0: never, as in the document.
     float near = 4.0f;
-    int form_factor = int(FormFactor::exact);
+    FormFactor form_factor = FormFactor::exact;
     // Off: patches are drawn at the corners of the map's texels and read from their middles, as in the document.
     bool half_texel = true;
 };
@@ -84,7 +84,7 @@ private:
     MadeFrom<Revision, Revision, bool> direct_of_;
     MadeFrom<Revision, PickParams, int, bool, bool> second_of_;
     MadeFrom<Revision, FurtherLightParams, int> third_of_;
-    MadeFrom<Revision, Revision, float, int, bool> indirect_of_;
+    MadeFrom<Revision, Revision, float, FormFactor, bool> indirect_of_;
     Revision mesh_revision_ = 0, direct_revision_ = 0, second_revision_ = 0, third_revision_ = 0,
              indirect_revision_ = 0;
 };
