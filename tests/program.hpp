@@ -46,6 +46,13 @@ inline std::vector<std::string> chapters()
     return names;
 }
 
+// Whether a chapter, by its name, has a voxel grid and the parameter `voxels`: from 04 on; 19 and 20 have patches instead.
+inline bool has_grid(const std::string& chapter)
+{
+    const int number = std::stoi(chapter);
+    return number >= 4 && number != 19 && number != 20;
+}
+
 // `arguments` as in a shell.
 inline ProgramRun run_program(const std::string& name, const std::string& arguments)
 {

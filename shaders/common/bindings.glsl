@@ -83,5 +83,9 @@ CONEBOOK_CONSTANT int kBrickListBinding = 7;
 CONEBOOK_CONSTANT int kTreeWeightBinding = 0;
 CONEBOOK_CONSTANT int kReflectedBinding = 1;
 CONEBOOK_CONSTANT int kTreeChangeBinding = 7;
+// 19
+CONEBOOK_CONSTANT int kPatchBinding = 2;
+CONEBOOK_CONSTANT int kPatchLightBinding = 3;
+CONEBOOK_CONSTANT int kSightBinding = 4;
 
 CONEBOOK_SHARED_END
