@@ -27,7 +27,7 @@ std::vector<double> contrasts(const Patches& patches, const Irradiance& irradian
     for (std::size_t i = 0; i < patches.size(); ++i) {
         const double own = double(brightness(irradiance[i]));
         for (const std::uint32_t n : surfaces.neighbours(std::uint32_t(i))) {
-            const double other = double(brightness(irradiance[n])), sum = 0.5 * (own + other) + 0.05 * mean;
+            const double other = double(brightness(irradiance[n])), sum = 0.5 * (own + other) + 0.01 * mean;
             if (sum > 0.0) result[i] = std::max(result[i], std::abs(own - other) / sum - kNoise);
         }
     }

@@ -26,7 +26,7 @@ glm::dvec3 fitted(const Patches& patches, const std::vector<std::uint32_t>& ring
     if (!(area > 0.0)) return glm::dvec3(0.0);
     size2 = std::max(size2 / area, 1e-30);
     // Normal equations of (1, x, y), lengths in the ring's own size. Slopes that nothing determines stay small.
-    constexpr double kLeastSlopeWeight = 0.02;
+    constexpr double kLeastSlopeWeight = 0.004;
     glm::dmat3 matrix(0.0), right(0.0);  // right: a column a channel
     glm::dvec3 low(1e300), high(-1e300);
     double total = 0.0;
@@ -48,7 +48,7 @@ glm::dvec3 fitted(const Patches& patches, const std::vector<std::uint32_t>& ring
     for (int c = 0; c < 3; ++c) result[c] = (inverse * right[c])[0];
     // No further beyond the patches' values than they differ.
     const glm::dvec3 range = high - low;
-    return glm::max(glm::clamp(result, low - 0.5 * range, high + 0.5 * range), glm::dvec3(0.0));
+    return glm::max(glm::clamp(result, low - range, high + range), glm::dvec3(0.0));
 }
 
 }  // namespace
