@@ -214,11 +214,15 @@ PatchPlace Patches::place(const SurfaceHit& hit) const
 
 std::uint32_t Patches::at(const SurfaceHit& hit) const { return hit.dark ? kNoPatch : on(place(hit).node, hit.front); }
 
-SurfaceHit Patches::point(const Patch& patch, int k, std::uint32_t turn) const
+SurfaceHit Patches::point(const Patch& patch, int k) const
 {
-    const std::uint64_t name = std::uint64_t(patch.node) * 2 + (patch.back ? 1 : 0);
-    return point(patch,
-                 triangle_weights(sequence_02(std::uint32_t(k), hash(name, 2 * turn), hash(name, 2 * turn + 1))));
+    // Steps of 1 / g and 1 / g^2 with g^3 = g + 1, which no power of 2 repeats (Roberts 2018, "The unreasonable
+    // effectiveness of quasirandom sequences", R2): rays are of a sequence in base 2, and places of the same base would
+    // move in step with their directions.
+    constexpr glm::dvec2 kStep(0.7548776662466927, 0.5698402909980532);
+    const std::uint64_t bits = mix_bits(2 * std::uint64_t(patch.node) + (patch.back ? 1 : 0) + 1);
+    const glm::dvec2 begin(double(bits >> 32) * 0x1p-32, double(bits & 0xffffffffu) * 0x1p-32);
+    return point(patch, triangle_weights(glm::vec2(glm::fract(begin + double(k) * kStep))));
 }
 
 SurfaceHit Patches::point(const Patch& patch, const glm::vec3& weights) const

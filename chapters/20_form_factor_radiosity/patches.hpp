@@ -71,8 +71,8 @@ public:
     PatchPlace place(const SurfaceHit& hit) const;
     std::uint32_t triangle(const SurfaceHit& hit) const;
 
-    // Point k of a patch, its surface seen along the normal. `turn`: another set of points.
-    SurfaceHit point(const Patch& patch, int k, std::uint32_t turn = 0) const;
+    // Point k = 0, 1, ... of a patch, all of them even over its area, its surface seen along the normal.
+    SurfaceHit point(const Patch& patch, int k) const;
     SurfaceHit point(const Patch& patch, const glm::vec3& weights) const;
 
     // What a mirror at a point, met along `direction` (unit), sends on; weight 0 when there is no mirror.

@@ -10,6 +10,8 @@
 namespace conebook {
 namespace {
 
+constexpr int kRaysOfPoint = 16;  // from one point of a patch, stratified among themselves
+
 std::uint32_t hash(std::uint64_t a, std::uint64_t b) { return std::uint32_t(mix_bits(mix_bits(a + 77) + b) >> 32); }
 
 }  // namespace
@@ -109,8 +111,12 @@ FormFactors trace_form_factors(const Patches& patches, const FormFactorParams& p
         const Patch& patch = patches[i];
         const int points = std::popcount(patch.exposed);
         if (points == 0) return;
-        const auto per_point = std::uint32_t(std::max(1, params.rays / points));
-        const float share = 1.0f / float(per_point * std::uint32_t(points));
+        // A patch in the open takes a new point for every kRaysOfPoint rays.
+        const bool is_open = points == kPatchPoints;
+        const int places = is_open ? std::max(kPatchPoints, params.rays / kRaysOfPoint) : kPatchPoints;
+        const int used = is_open ? places : points;
+        const auto per_point = std::uint32_t(std::max(1, params.rays / used));
+        const float share = 1.0f / float(per_point * std::uint32_t(used));
         RowBuilder row;
         std::uint64_t rays = 0;
 
@@ -130,8 +136,8 @@ FormFactors trace_form_factors(const Patches& patches, const FormFactorParams& p
         // snippet: cosine_rays
         double met_lamps = 0.0;
         std::uint32_t sequence = 0;
-        for (int k = 0; k < kPatchPoints; ++k) {
-            if ((patch.exposed >> k & 1) == 0) continue;
+        for (int k = 0; k < places; ++k) {
+            if (!is_open && (patch.exposed >> k & 1) == 0) continue;
             const SurfaceHit x = patches.point(patch, k);
             const Frame frame(patch.normal);
             for (std::uint32_t n = 0; n < per_point; ++n) {
