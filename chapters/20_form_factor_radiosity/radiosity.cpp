@@ -62,24 +62,26 @@ Patches make_patches(const SceneTracer& tracer, const PatchParams& params, const
     if (!params.adaptive || mesh.leaf_count() >= budget) return Patches(tracer, params, std::move(mesh));
 
     // snippet: adapt
-    // A first solution, coarse and by few rays. Bisect where light changes, until the budget is spent: a change over a
-    // patch shrinks with its width, and what it spoils with its area.
-    Patches first(tracer, params, std::move(mesh));
-    first.light(lights);
-    const FormFactors factors = trace_form_factors(first, {.rays = kFirstRays});
-    const Solution solution = solve_radiosity(first, factors, {.bounces = 3});
-    const std::vector<double> contrast = contrasts(first, solution.irradiance());
-    mesh = first.mesh();
-    const auto known = std::int64_t(mesh.nodes().size());
-    std::vector<double> of_node(mesh.nodes().size(), 0.0);
-    for (std::size_t i = 0; i < first.size(); ++i)
-        of_node[first[i].node] = std::max(of_node[first[i].node], contrast[i]);
-    mesh.refine(budget, 0.0, [&](std::uint32_t node) {
-        std::int64_t ancestor = node;
-        while (ancestor >= known) ancestor = mesh.nodes()[std::size_t(ancestor)].parent;
-        const double area = mesh.area(node), shrunk = area / std::max(mesh.area(std::uint32_t(ancestor)), 1e-300);
-        return of_node[std::size_t(ancestor)] * std::sqrt(shrunk) * area;
-    });
+    // Twice: a solution, coarse and by few rays, and bisection where light changes. A change over a patch shrinks with its
+    // width, and what it spoils with its area.
+    for (const std::size_t leaves : {(2 * budget + 1) / 3, budget}) {
+        Patches coarse(tracer, params, std::move(mesh));
+        coarse.light(lights);
+        const FormFactors factors = trace_form_factors(coarse, {.rays = kFirstRays});
+        const std::vector<double> contrast =
+            contrasts(coarse, solve_radiosity(coarse, factors, {.bounces = 3}).irradiance());
+        mesh = coarse.mesh();
+        const auto known = std::int64_t(mesh.nodes().size());
+        std::vector<double> of_node(mesh.nodes().size(), 0.0);
+        for (std::size_t i = 0; i < coarse.size(); ++i)
+            of_node[coarse[i].node] = std::max(of_node[coarse[i].node], contrast[i]);
+        mesh.refine(leaves, 0.0, [&](std::uint32_t node) {
+            std::int64_t ancestor = node;
+            while (ancestor >= known) ancestor = mesh.nodes()[std::size_t(ancestor)].parent;
+            const double area = mesh.area(node), shrunk = area / std::max(mesh.area(std::uint32_t(ancestor)), 1e-300);
+            return of_node[std::size_t(ancestor)] * std::sqrt(shrunk) * area;
+        });
+    }
     // end snippet
     return Patches(tracer, params, std::move(mesh));
 }
