@@ -133,13 +133,13 @@ FormFactors trace_form_factors(const Patches& patches, const FormFactorParams& p
         }
         const std::size_t first_ray = row.direct_count();
 
-        // snippet: cosine_rays
         double met_lamps = 0.0;
         std::uint32_t sequence = 0;
         for (int k = 0; k < places; ++k) {
             if (!is_open && (patch.exposed >> k & 1) == 0) continue;
             const SurfaceHit x = patches.point(patch, k);
             const Frame frame(patch.normal);
+            // snippet: cosine_rays
             for (std::uint32_t n = 0; n < per_point; ++n) {
                 // Density cos / pi, so that each ray stands for the same share of the form factors.
                 const glm::vec2 u = sequence_02(sequence++, hash(i, 2), hash(i, 3));
@@ -156,8 +156,8 @@ FormFactors trace_form_factors(const Patches& patches, const FormFactorParams& p
                 rays +=
                     std::uint64_t(follow_mirrors(patches, *hit, direction, glm::vec3(share), params.reflections, row));
             }
+            // end snippet
         }
-        // end snippet
         rays += sequence;
         // What is not lamp fills the rest: the row's sum has no noise in a closed scene.
         if (!lamps.empty() && met_lamps < 1.0)

@@ -28,26 +28,26 @@ def hemicube():
     d.line((2 * a[0] / a[1], 2), (2, 2), RED, 5)
     d.line((2, 2), (2, 2 * b[1] / b[0]), RED, 5)
     d.dot((0, 0), INK, 5)
-    d.label((0, -0.75), "patch i", INK)
+    d.label((-0.4, -0.75), "patch i", INK)
     d.label((3.6, 4.2), "patch j", ORANGE, "start")
-    d.label((-2.1, 2.45), "hemicube: top and four half sides", BLUE, size=14)
-    d.label((-2.9, 3.2), "hemisphere", GREY, size=14)
-    d.label((2.1, -0.75), "F_ij: its share of the disc", RED, size=14)
+    d.label((-4.4, 2.2), "hemicube: its top\nand half sides", BLUE, "start", size=14)
+    d.label((-2.2, 3.2), "hemisphere", GREY, size=14)
+    d.label((0.9, -0.75), "F_{ij}: its share of the disc", RED, "start", size=14)
     return d
 
 
 def mirrored_camera():
     """The item buffer of a point in a mirror: the eye and its cube reflected, clipped at the mirror."""
     d = Drawing("The view of a point in a mirror is the view of its mirror image through the mirror", -0.8, -4.2, 10.6, 4.4)
-    d.box((3.2, 0), (7.4, 0.18), BLUE, PALE[BLUE], 1.5)
-    d.line((-0.4, 0), (10.2, 0), BLUE, 1, "6 4")
     eye, image = (1.6, -2.8), (1.6, 2.8)
-    d.polygon([image, (3.2, 0), (7.4, 0)], PALE[GREY], PALE[GREY], 0.5)
+    d.polygon([image, (3.2, 0), (5.4, 0)], PALE[GREY], PALE[GREY], 0.5)
     ends = []
-    for x in (3.2, 7.4):
+    for x in (3.2, 5.4):
         t = 5.6 / 2.8
         ends.append((image[0] + t * (x - image[0]), -2.8))
-    d.polygon([(3.2, 0), (7.4, 0), ends[1], ends[0]], PALE[ORANGE], PALE[ORANGE], 0.5)
+    d.polygon([(3.2, 0), (5.4, 0), ends[1], ends[0]], PALE[ORANGE], PALE[ORANGE], 0.5)
+    d.line((-0.4, 0), (10.2, 0), BLUE, 1, "6 4")
+    d.box((3.2, 0), (5.4, 0.18), BLUE, PALE[BLUE], 1.5)
     d.line((6.0, -2.8), (7.4, -2.8), ORANGE, 5)
     for x in (6.0, 7.4):
         m = (image[0] + (x - image[0]) / 2, 0)
@@ -62,7 +62,7 @@ def mirrored_camera():
     d.label((1.6, -3.5), "patch i and its hemicube", INK, size=14)
     d.label((2.3, 3.2), "the same, reflected", GREY, "start", size=14)
     d.label((6.7, -3.5), "patch j", ORANGE, size=14)
-    d.label((7.6, 0.45), "mirror, rho_s", BLUE, "start")
+    d.label((5.7, 0.4), "mirror", BLUE, "start")
     d.label((9.9, -1.4), "kept: below the mirror's\nplane, and where the first\nbuffer has the mirror", INK, "end", size=13)
     return d
 
@@ -87,8 +87,8 @@ def bisection():
     for x in (3.3, 7.4):
         d.arrow((x, 1.2), (x + 0.9, 1.2), GREY, 1.5)
     d.label((1.3, 0.0), "wanted smaller", BLUE, size=13)
-    d.label((5.6, 3.3), "its neighbour's longest edge first", RED, size=13)
-    d.label((9.9, 3.3), "then the common edge, in both", RED, size=13)
+    d.label((5.6, 0.0), "first its neighbour's longest edge,", RED, size=13)
+    d.label((10.2, 0.0), "then the common edge, in both", RED, size=13)
     return d
 
 
