@@ -207,11 +207,11 @@ FormFactors render_form_factors(Hemicubes& hemicubes, const Patches& patches, co
     for (std::uint32_t i = 0; i < patches.size(); ++i) {
         const Patch& patch = patches[i];
         int places = 0;
-        if (params.samples == 1 && patch.exposed == (1u << kPatchPoints) - 1u) {
+        if (params.samples == 1 && patches.is_open(patch)) {
             jobs.push_back(job_of(i, patches.point(patch, glm::vec3(1.0f / 3.0f))));
             places = 1;
         } else {
-            for (int k = 0; k < kPatchPoints && places < params.samples; ++k) {
+            for (int k = 0; k < patches.points() && places < params.samples; ++k) {
                 if ((patch.exposed >> k & 1) == 0) continue;
                 jobs.push_back(job_of(i, patches.point(patch, k)));
                 ++places;

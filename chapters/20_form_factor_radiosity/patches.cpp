@@ -145,7 +145,7 @@ void Patches::fill(std::uint32_t index)
     patch.normal = middle.geometric_normal;
     int exposed = 0, mirrors = 0;
     glm::vec3 all_centers(0.0f);
-    for (int k = 0; k < kPatchPoints; ++k) {
+    for (int k = 0; k < points(); ++k) {
         const SurfaceHit p = point(patch, k);
         all_centers += p.position;
         if (is_buried(*tracer_, p.position, p.geometric_normal, hash(index, std::uint64_t(k)))) continue;
@@ -163,14 +163,14 @@ void Patches::fill(std::uint32_t index)
         }
     }
     if (exposed == 0) {
-        patch.center = all_centers / float(kPatchPoints);
+        patch.center = all_centers / float(points());
         return;
     }
     const float scale = 1.0f / float(exposed);
     for (glm::vec3* mean : {&patch.center, &patch.rho, &patch.emitted, &patch.f0, &patch.f90}) *mean *= scale;
-    if (exposed == kPatchPoints) patch.center = middle.position;
+    if (is_open(patch)) patch.center = middle.position;
     patch.mirror = mirrors > 0;
-    patch.area = float(mesh_.area(patch.node)) * float(exposed) / float(kPatchPoints);
+    patch.area = float(mesh_.area(patch.node)) * float(exposed) / float(points());
 }
 
 void Patches::light(const std::vector<Light>& lights)
@@ -179,7 +179,7 @@ void Patches::light(const std::vector<Light>& lights)
         Patch& patch = patches_[i];
         patch.lit = glm::vec3(0.0f);
         int exposed = 0;
-        for (int k = 0; k < kPatchPoints; ++k) {
+        for (int k = 0; k < points(); ++k) {
             if ((patch.exposed >> k & 1) == 0) continue;
             ++exposed;
             const SurfaceHit p = point(patch, k);

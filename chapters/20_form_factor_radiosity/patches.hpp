@@ -25,7 +25,9 @@ struct PatchParams {
 };
 void add_parameters(ParameterTable& table, PatchParams& params);
 
-constexpr int kPatchPoints = 16;  // stratified places on a patch: for its materials, direct light, rays
+// Places on a patch, for its materials, direct light, rays; and those where patches are more than kManyPatches.
+constexpr int kPatchPoints = 16, kFewPatchPoints = 4;
+constexpr std::size_t kManyPatches = 100000;
 constexpr std::uint32_t kNoPatch = 0xffffffffu;
 
 // One side of a leaf of the mesh.
@@ -63,6 +65,8 @@ public:
     std::size_t size() const { return patches_.size(); }
     const Patch& operator[](std::size_t i) const { return patches_[i]; }
     bool has_mirrors() const { return has_mirrors_; }
+    int points() const { return size() > kManyPatches ? kFewPatchPoints : kPatchPoints; }      // of each patch
+    bool is_open(const Patch& patch) const { return patch.exposed == (1u << points()) - 1u; }  // all of them exposed
 
     // The patch on a side of a leaf; kNoPatch for the back of a single-sided surface and for triangles without area.
     std::uint32_t on(std::uint32_t leaf, bool front) const { return (front ? front_ : back_)[leaf]; }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kFirstRays = 128;      // of a patch, for the solution that says where to bisect
 constexpr double kEmitterKey = 0.1;  // the own irradiance of a lamp hardly shows, so it gets fewer patches
-constexpr double kMostRays = 16e6;   // of all patches; scenes of very many triangles get fewer each
+constexpr double kMostRays = 8e6;    // of all patches where they are more than kManyPatches
 
 float brightness(const glm::vec3& v) { return v.x + v.y + v.z; }
 
@@ -32,6 +32,12 @@ std::vector<double> contrasts(const Patches& patches, const Irradiance& irradian
         }
     }
     return result;
+}
+
+int rays_of_patch(const Patches& patches, int wanted)
+{
+    if (patches.size() <= kManyPatches) return wanted;
+    return std::min(wanted, std::max(patches.points(), int(kMostRays / double(patches.size()))));
 }
 
 }  // namespace
@@ -102,8 +108,7 @@ bool Radiosity::find_form_factors(const RadiosityParams& params)
 {
     if (!factors_from_.differs(params.form_factors, patches_revision_)) return false;
     FormFactorParams wanted = params.form_factors;
-    const double most = kMostRays / double(std::max<std::size_t>(patches_->size(), 1));
-    wanted.rays = std::min(wanted.rays, std::max(kPatchPoints, int(most)));
+    wanted.rays = rays_of_patch(*patches_, wanted.rays);
     if (wanted.form_factors == int(FormFactorMethod::embree)) {
         form_factors_ = trace_form_factors(*patches_, wanted);
     } else {
@@ -200,13 +205,13 @@ std::vector<Need> Radiosity::needs(const RadiosityParams& params) const
     std::string mirrors = "no surface is smoother than mirror_roughness";
     if (planes > 0) mirrors = std::to_string(planes) + " mirror planes";
     const bool cameras = method == int(FormFactorMethod::hemicube) && planes > 0 && planes <= kMostMirrorPlanes;
-    const double rays_each = patches_->size() > 0 ? kMostRays / double(patches_->size()) : kMostRays;
-    const bool fewer = method == int(FormFactorMethod::embree) && rays_each < double(params.form_factors.rays);
+    const int rays = rays_of_patch(*patches_, params.form_factors.rays);
+    const bool fewer = method == int(FormFactorMethod::embree) && rays < params.form_factors.rays;
     return {{"item buffers", method != int(FormFactorMethod::embree), kNames[method]},
             {"mirrored item buffers", cameras, mirrors + (planes > kMostMirrorPlanes ? ": too many, traced" : "")},
             {"mirror paths", planes > 0, mirrors},
             {"fewer rays than asked for", fewer,
-             fewer ? std::to_string(int(rays_each)) + " of a patch, since there are many" : "few enough patches"},
+             fewer ? std::to_string(rays) + " of a patch, since there are many" : "few enough patches"},
             {"reflectance lowered", solution_.dimmed > 0,
              std::to_string(solution_.dimmed) + " patches reflect all light, and all bounces are wanted"}};
 }

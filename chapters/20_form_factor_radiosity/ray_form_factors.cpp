@@ -112,8 +112,8 @@ FormFactors trace_form_factors(const Patches& patches, const FormFactorParams& p
         const int points = std::popcount(patch.exposed);
         if (points == 0) return;
         // A patch in the open takes a new point for every kRaysOfPoint rays.
-        const bool is_open = points == kPatchPoints;
-        const int places = is_open ? std::max(kPatchPoints, params.rays / kRaysOfPoint) : kPatchPoints;
+        const bool is_open = patches.is_open(patch);
+        const int places = is_open ? std::max(points, params.rays / kRaysOfPoint) : patches.points();
         const int used = is_open ? places : points;
         const auto per_point = std::uint32_t(std::max(1, params.rays / used));
         const float share = 1.0f / float(per_point * std::uint32_t(used));
@@ -122,7 +122,7 @@ FormFactors trace_form_factors(const Patches& patches, const FormFactorParams& p
 
         // Lamps: what of the sky each would fill, times the share of rays that reach it.
         double to_lamps = 0.0;
-        for (int k = 0; k < kPatchPoints && !lamps.empty(); ++k) {
+        for (int k = 0; k < patches.points() && !lamps.empty(); ++k) {
             if ((patch.exposed >> k & 1) == 0) continue;
             const glm::vec3 x = patches.point(patch, k).position;
             rays += std::uint64_t(
