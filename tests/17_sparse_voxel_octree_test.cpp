@@ -59,7 +59,7 @@ struct TreeScene {
         shading.run(voxels.scene, voxels.grid, voxels.voxelizer, voxels.faces, shadow_maps, {});
         tree.build(voxels.grid, voxels.faces, tree_params);
         bricks.fill(voxels.grid, voxels.faces, tree, shading.radiance(), shading.revision(),
-                    {int(transfer), int(BrickFormat::rgba32f)});
+                    {transfer, BrickFormat::rgba32f});
     }
 
     // The samples of all bricks: (level, direction, place) -> values, one for each copy.

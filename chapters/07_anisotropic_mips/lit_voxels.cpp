@@ -25,7 +25,7 @@ void LitVoxels::shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_
 {
     // Triangles -> occupied voxels -> mean material of their faces; all that follows from them runs when they do.
     grid_.fit(scene.bounds(), params_.grid);
-    if (params_.update == int(Update::always)) voxelizer_.forget();
+    if (params_.update == Update::always) voxelizer_.forget();
     app.pass("voxelize", Scope::scene, [&] { return voxelizer_.run(scene, grid_, params_.voxelizer); });
     app.pass("average", Scope::scene, [&] { return faces_.run(scene, grid_, voxelizer_); });
     // Material and lights -> radiance of the faces.

@@ -42,7 +42,7 @@ private:
     gl::Buffer links_, from_emitters_, albedo_, packed_[2], reflected_, change_;
     bool has_emitters_ = false;
     // Walk volume, coverage, emitters, rays, links.
-    MadeFrom<Revision, Revision, Revision, float, int, float, int> linked_from_;
+    MadeFrom<Revision, Revision, Revision, float, ConeTable, float, int> linked_from_;
     MadeFrom<Revision, Revision, float, BounceParams> made_from_;   // links, what is directly lit, sky
     Revision links_revision_ = 0, revision_ = 0;
     int count_ = 0;

@@ -87,11 +87,12 @@ bool BrickPool::fill(const VoxelGrid& grid, const VoxelFaces& faces, const Octre
 {
     if (!made_from_.differs(tree.revision(), reflected.id(), reflected_revision, params)) return false;
     ++revision_;
-    allocate(grid, tree, BrickFormat(params.brick_format));
-    const std::string format = std::to_string(params.brick_format);
+    allocate(grid, tree, params.brick_format);
+    const std::string format = std::to_string(int(params.brick_format));
     const gl::Program& spread = spread_.with({{"FORMAT", format}});
     const gl::Program& filter = filter_.with({{"FORMAT", format}});
-    const gl::Program& transfer = transfer_.with({{"FORMAT", format}, {"AVERAGE", std::to_string(params.transfer)}});
+    const gl::Program& transfer =
+        transfer_.with({{"FORMAT", format}, {"AVERAGE", std::to_string(int(params.transfer))}});
     grid.bind();
     faces.bind();
     reflected.bind(GL_SHADER_STORAGE_BUFFER, shared::kRadianceBinding);

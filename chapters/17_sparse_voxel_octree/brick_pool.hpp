@@ -11,9 +11,9 @@ enum class BrickFormat : int { rgba16f = 0, rgba32f = 1 };
 struct BrickParams {
     // What two bricks do with a sample that they share: sum is right; average, as published, leaves a wall 0.5, 0.25
     // and 0.125 of its coverage in the middles, on edges and at corners.
-    int transfer = int(Transfer::sum);
+    Transfer transfer = Transfer::sum;
     // rgba16f: 216 bytes a brick; rgba32f: twice that, for tests.
-    int brick_format = int(BrickFormat::rgba16f);
+    BrickFormat brick_format = BrickFormat::rgba16f;
     bool operator==(const BrickParams&) const = default;
 };
 void add_parameters(ParameterTable& table, BrickParams& params);

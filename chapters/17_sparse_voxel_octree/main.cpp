@@ -71,7 +71,7 @@ try {
             scene.set_lights(turned_lights(app.scene().lights, scene.bounds(), tool_params.turn_lights));
 
         // What the lights see, if pixels or voxels ask.
-        if (tree_params.update == int(Update::always)) shadow_maps.forget();
+        if (tree_params.update == Update::always) shadow_maps.forget();
         if (asks_shadow_maps(tree_params, shadow_params))
             app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, tree_params.shadow_maps); });
 
@@ -90,7 +90,7 @@ try {
         // Light straight from the lights.
         const gl::Texture* direct = nullptr;
         app.pass("direct light", [&] {
-            if (shadow_params.shadows == int(ShadowMethod::cone)) {
+            if (shadow_params.shadows == ShadowMethod::cone) {
                 direct = &soft_lighting.run(g_buffer, scene, light, cone_params, shadow_params);
                 return;
             }
@@ -119,7 +119,7 @@ try {
             const std::string& view = app.view().name;
             if (linear = tree_view.run(light, view, view_params, camera, app.size()); linear != nullptr) return;
             if (linear = g_buffer_view.run(g_buffer, view); linear != nullptr) return;
-            linear = &composite.run(g_buffer, direct, gathered, specular, parts_of(view, UpTo(tool_params.up_to)),
+            linear = &composite.run(g_buffer, direct, gathered, specular, parts_of(view, tool_params.up_to),
                                     composite_params, cone_params.sky);
             if (accumulation_params.accumulate && app.view().encoding == Encoding::radiance)
                 linear = &accumulation.add(*linear, sample);

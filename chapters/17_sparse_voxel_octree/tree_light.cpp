@@ -25,7 +25,8 @@ void add_parameters(ParameterTable& table, TreeLightParams& params)
 void add_tree_cone_parameters(ParameterTable& table, ConeParams& params)
 {
     table.add_values("cones", params.cones, {1, 5, 6, 9, 16, 32}, "diffuse cones over the hemisphere");
-    table.add("cone_table", params.cone_table, {"tilted", "thesis"}, "tilts that keep the cosine, or those published");
+    table.add("cone_table", params.cone_table, {"tilted", "thesis", "thesis_added"},
+              "tilts that keep the cosine, those published, or those of the published code");
     table.add("interleave", params.interleave, {"off", "on", "every_pixel"},
               "neighbouring pixels have different cones and share them, or every pixel has all");
     table.add("aperture", params.aperture, 0.0, 179.0, "deg", "full aperture of a diffuse cone; 0: as the set asks");
@@ -59,7 +60,7 @@ void TreeLight::run(App& app, const GpuScene& scene, const ShadowMaps& shadow_ma
                     bool shows_photons)
 {
     grid_.fit(scene.bounds(), params_.grid);
-    if (params_.update == int(Update::always)) {
+    if (params_.update == Update::always) {
         voxelizer_.forget();
         photons_.forget();
         bricks_.forget();
@@ -89,7 +90,7 @@ bool TreeLight::bounce(const ConeParams& cones)
     // Of the cones' parameters the pixels alone have some; a face has links of them.
     ConeParams of_faces = cones;
     of_faces.cones = params_.links;
-    of_faces.interleave = int(Interleave::on);
+    of_faces.interleave = Interleave::on;
     if (!bounced_from_.differs(tree_.revision(), direct_revision(), params_.injection, params_.bricks, params_.bounces,
                                params_.tolerance, params_.links, of_faces))
         return false;

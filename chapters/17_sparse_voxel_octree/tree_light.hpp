@@ -18,7 +18,7 @@ struct TreeLightParams {
     ShadowMapParams shadow_maps;
     OctreeParams tree;
     BrickParams bricks;
-    int injection = int(Injection::faces);
+    Injection injection = Injection::faces;
     PhotonParams photons;
     // Indirect bounces, 0 .. 64, or -1: until nothing changes any more; as in chapter 12.
     int bounces = -1;
@@ -26,7 +26,7 @@ struct TreeLightParams {
     float tolerance = 1e-3f;
     // Cones of every face, for the bounces from voxel to voxel: 1, 5, 9 or 16.
     int links = 5;
-    int update = int(Update::on_change);
+    Update update = Update::on_change;
 };
 void add_parameters(ParameterTable& table, TreeLightParams& params);
 
@@ -60,7 +60,7 @@ public:
 
 private:
     bool few_bounces() const { return params_.bounces == 0 || params_.bounces == 1; }
-    bool by_photons() const { return params_.injection == int(Injection::photons); }
+    bool by_photons() const { return params_.injection == Injection::photons; }
     // What the faces reflect of light straight from the lights.
     const gl::Buffer& direct() const { return by_photons() ? photons_.radiance() : shading_.radiance(); }
     Revision direct_revision() const { return by_photons() ? photons_.revision() : shading_.revision(); }
@@ -77,7 +77,7 @@ private:
     ConeDirections directions_;
     gl::Buffer reflected_, change_;
     // Tree, direct light and whose, bricks, bounces, tolerance, links, cones.
-    MadeFrom<Revision, Revision, int, BrickParams, int, float, int, ConeParams> bounced_from_;
+    MadeFrom<Revision, Revision, Injection, BrickParams, int, float, int, ConeParams> bounced_from_;
     Revision bounced_ = 0;
     int bounce_count_ = 0;
 };

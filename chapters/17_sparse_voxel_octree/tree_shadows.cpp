@@ -14,8 +14,7 @@ void add_tree_shadow_parameters(ParameterTable& table, SoftShadowParams& params)
 
 bool asks_shadow_maps(const TreeLightParams& voxels, const SoftShadowParams& pixels)
 {
-    const bool by_voxels =
-        voxels.injection == int(Injection::faces) && voxels.shading.voxel_shadows == int(VoxelShadows::map);
+    const bool by_voxels = voxels.injection == Injection::faces && voxels.shading.voxel_shadows == VoxelShadows::map;
     return asks_shadow_maps(pixels) || by_voxels;
 }
 

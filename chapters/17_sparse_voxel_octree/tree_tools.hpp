@@ -14,7 +14,7 @@ struct TreeToolParams {
     // Pixel from which the test cone is shot, from the upper left, in shares of the picture's width and height, 0 .. 1.
     float pick_x = 0.5f, pick_y = 0.5f;
     float test_aperture = 30.0f;  // full, degrees, 0.1 .. 120
-    int up_to = int(UpTo::all);
+    UpTo up_to = UpTo::all;
     bool orthographic = false;
     float turn_lights = 0.0f;  // degrees round the vertical through the scene's middle, -360 .. 360
 };

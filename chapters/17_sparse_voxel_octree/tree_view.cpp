@@ -38,7 +38,7 @@ std::vector<View> tree_views()
 
 Encoding encoding_of(const View& view, const TreeViewParams& params)
 {
-    return view.name == "bricks" && params.brick_quantity == 1 ? Encoding::data : view.encoding;
+    return view.name == "bricks" && params.brick_quantity == BrickQuantity::coverage ? Encoding::data : view.encoding;
 }
 
 namespace {
@@ -157,9 +157,9 @@ const gl::Texture* TreeViewPass::run(const TreeLight& light, const std::string& 
     for (std::size_t i = 0; i < selected.size(); ++i)
         program.set(("selected[" + std::to_string(i) + "]").c_str(), selected[i]);
     program.set("only_selected", params.only_selected && !voxels);
-    program.set("direction", params.direction);
+    program.set("direction", int(params.direction));
     program.set("layer", params.brick_layer);
-    program.set("quantity", params.brick_quantity);
+    program.set("quantity", int(params.brick_quantity));
     gl::draw_pixels(program, framebuffer_, no_vertices_, size);
     return &color_;
 }

@@ -9,15 +9,17 @@
 
 namespace conebook {
 
+enum class BrickQuantity : int { light = 0, coverage = 1 };
+
 struct TreeViewParams {
-    int level = -1;                             // of views nodes and bricks, 0 = root; -1: leaves
-    int node = -1;                              // number of a node to highlight, -1: none
-    int node_x = -1, node_y = -1, node_z = -1;  // the node of `level` that holds this voxel instead, -1: none
-    bool show_neighbours = false;               // highlight the node's neighbours too
-    bool only_selected = false;                 // show nothing else
-    int direction = 6;                          // of bricks: -x +x -y +y -z +z, or the side that is seen
-    int brick_layer = -1;                       // of bricks: 0 .. 2 along the direction's axis, -1: all
-    int brick_quantity = 0;                     // of bricks: light, coverage
+    int level = -1;                                       // of views nodes and bricks, 0 = root; -1: leaves
+    int node = -1;                                        // number of a node to highlight, -1: none
+    int node_x = -1, node_y = -1, node_z = -1;            // the node of `level` that holds this voxel instead, -1: none
+    bool show_neighbours = false;                         // highlight the node's neighbours too
+    bool only_selected = false;                           // show nothing else
+    PyramidSide direction = PyramidSide::seen;            // of bricks: -x +x -y +y -z +z, or the side that is seen
+    int brick_layer = -1;                                 // of bricks: 0 .. 2 along the direction's axis, -1: all
+    BrickQuantity brick_quantity = BrickQuantity::light;  // of bricks: light, coverage
 };
 void add_parameters(ParameterTable& table, TreeViewParams& params);
 

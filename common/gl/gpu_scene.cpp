@@ -163,7 +163,7 @@ GpuScene::GpuScene(const Scene& scene)
     std::vector<shared::MaterialData> materials;
     for (const Material& m : scene.materials) {
         materials.push_back(material_data(m));
-        has_emission_ = has_emission_ || m.emission != glm::vec3(0.0f) || m.unlit;
+        has_emission_ = has_emission_ || m.shines();
     }
     for (const Node& node : scene.nodes) may_move_ = may_move_ || (node.dynamic && node.vertices.count > 0);
     material_buffer_ = gl::Buffer("materials", materials);
