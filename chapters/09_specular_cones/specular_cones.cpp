@@ -49,15 +49,23 @@ void SpecularCones::bind(const gl::Program& program, const ConeParams& cones, co
 const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
                                       const SpecularConeParams& params, int sample, const std::string& folder)
 {
+    const auto bind_volumes = [&](const gl::Program&) { volumes.bind(); };
+    return run(g_buffer, volumes.grid, bind_volumes, volumes.defines(), cones, params, sample, folder);
+}
+
+const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const VoxelGrid& grid,
+                                      const std::function<void(const gl::Program&)>& bind_volumes,
+                                      const gl::Defines& defines, const ConeParams& cones,
+                                      const SpecularConeParams& params, int sample, const std::string& folder)
+{
     gl::fit_to_pixels(lobe_light_, lobe_framebuffer_, "light in the lobe", GL_RGBA32F, g_buffer.size());
     gl::fit_to_pixels(specular_, specular_framebuffer_, "specular light", GL_RGBA32F, g_buffer.size());
     make_table();
     // The mean of the light in every pixel's lobe, or in its part of a wide one.
     g_buffer.bind();
-    volumes.bind();
     const std::vector<std::string> files = {"common/fullscreen.vert", folder + "/specular.frag"};
-    const gl::Program& trace =
-        trace_.try_emplace(folder, shaders_, files).first->second.with(volumes.defines());
+    const gl::Program& trace = trace_.try_emplace(folder, shaders_, files).first->second.with(defines);
+    bind_volumes(trace);
     bind(trace, cones, params, sample);
     gl::draw_pixels(trace, specular_framebuffer_, no_vertices_, g_buffer.size());
 
@@ -65,7 +73,7 @@ const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const ConeVolumes
     const gl::Program& share = shares_.with({});
     directional_albedo_.bind(16);
     share.set("interleave", cones.interleave == Interleave::on);
-    share.set("plane_tolerance", volumes.grid.voxel_size_m());
+    share.set("plane_tolerance", grid.voxel_size_m());
     specular_.bind(17);
     share.set("window_begin", -2);
     share.set("reflect_it", false);

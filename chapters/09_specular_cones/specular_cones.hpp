@@ -32,6 +32,11 @@ public:
     const gl::Texture& run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
                            const SpecularConeParams& params, int sample = 0,
                            const std::string& folder = "09_specular_cones");
+    // The same through whatever the folder's programs read: `bind` binds it and sets its uniforms.
+    const gl::Texture& run(const GBuffer& g_buffer, const VoxelGrid& grid,
+                           const std::function<void(const gl::Program&)>& bind_volumes, const gl::Defines& defines,
+                           const ConeParams& cones, const SpecularConeParams& params, int sample,
+                           const std::string& folder);
     std::vector<gl::Resource> resources() const
     {
         return {lobe_light_.resource(), specular_.resource(), directional_albedo_.resource()};

@@ -3,7 +3,9 @@
 #include "common/g_buffer.glsl"
 #include "common/brdf.glsl"
 #include "common/frame.glsl"
+#ifndef OWN_TRACE_LOBE  // a chapter with a trace_lobe() of its own includes that before and says so
 #include "08_diffuse_cones/cone.glsl"
+#endif
 #include "09_specular_cones/specular_surface.glsl"
 
 #ifndef STORE
@@ -51,6 +53,7 @@ float smith_lambda(float cos_theta, float alpha)
 
 const float kGoldenAngle = 2.39996323;  // rad
 
+#ifndef OWN_TRACE_LOBE
 // Mean radiance along a cone: every run of surfaces that it meets by the share that it stops. Few cones share a lobe,
 // so none leaves to chance which of them it sees.
 // snippet: trace_lobe
@@ -74,6 +77,7 @@ vec3 trace_lobe(RayStart start, vec3 direction, float tan_half)
                                      : sky_radiance);
 }
 // end snippet
+#endif
 
 void main()
 {
