@@ -56,7 +56,7 @@ public:
         EXPECT_TRUE(app_->next_frame());
         app_->pass("pose", Scope::scene, [&] { return moving.run(scene, double(params.time)); });
         light.run(*app_, scene, params.camera.cones, plan(),
-                  [&] { dynamic.run(*app_, app_->scene(), scene, light.voxels(), params.dynamic); });
+                  [&] { return dynamic.run(*app_, app_->scene(), scene, light.voxels(), params.dynamic); });
     }
     // Draws one more; how often each pass ran in it.
     std::map<std::string, int> draw()

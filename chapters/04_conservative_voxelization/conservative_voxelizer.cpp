@@ -142,7 +142,8 @@ void ConservativeVoxelizer::mark(const GpuScene& scene, const VoxelGrid& grid, c
 void ConservativeVoxelizer::add(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params,
                                 const std::vector<Range>& triangles, const gl::Buffer& counters, FragmentList& list)
 {
-    if (Voxelizer(params.voxelizer) == Voxelizer::compute && !large_triangles_)
+    if (Voxelizer(params.voxelizer) == Voxelizer::compute &&
+        large_triangles_.bytes() < scene.triangle_count() * sizeof(GLuint))
         large_triangles_ = gl::Buffer("large triangles", scene.triangle_count() * sizeof(GLuint));
     // A second time where the list was too short; marks stay the same.
     do {
@@ -164,7 +165,7 @@ void ConservativeVoxelizer::make(const GpuScene& scene, const VoxelGrid& grid, c
     if (compute && !params.conservative) throw std::runtime_error("conservative=off is for voxelizer=raster only");
     ++revision_;
     allocate(grid, params);
-    if (room_for_.differs(grid.revision())) {
+    if (room_for_.differs(grid.revision()) || fragments_.ranges().size() != scene.materials().size()) {
         // In the mean over all places a triangle meets 1 + its box's sides + its areas along the axes in voxels: the
         // volume of its Minkowski sum with a voxel. Places that are not random, as of walls between two layers of
         // voxels, may find more; a quarter is left for them.

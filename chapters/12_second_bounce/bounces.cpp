@@ -28,27 +28,38 @@ Bounces::Bounces(gl::Shaders& shaders)
 }
 
 bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitters& emitters, const ConeParams& cones,
-                   const BounceParams& params)
+                   const BounceParams& params, const FaceChange& change)
 {
-    if (!linked_from_.differs(walk.revision(), voxels.coverage_revision(), emitters.revision(), cones.start_offset,
-                              cones.cone_table, cones.aperture, params.links))
+    const bool other_rays =
+        linked_with_.differs(cones.start_offset, cones.cone_table, cones.aperture, params.links);
+    if (!linked_from_.differs(walk.revision(), voxels.coverage_revision(), emitters.revision()) && !other_rays)
         return false;
     ++links_revision_;
     constexpr int kSets = 64;  // of 8 x 8 faces of a wall
-    const std::size_t count = voxels.faces().face_count();
-    links_ = gl::Buffer("links", count * std::size_t(params.links) * sizeof(GLuint));
-    from_emitters_ = gl::Buffer("from emitters", count * sizeof(glm::vec4));
-    albedo_ = gl::Buffer("reflectance of faces", count * sizeof(GLuint));
-    for (gl::Buffer& buffer : packed_) buffer = gl::Buffer("radiance of faces between bounces", count * sizeof(glm::uvec2));
-    const std::size_t bytes = count * sizeof(glm::vec4);
-    gl::grow(reflected_, "reflected by faces", bytes, reflected_.bytes());
+    const VoxelFaces& faces = voxels.faces();
+    // Rays at emitters come from everywhere.
+    const bool some = !other_rays && !emitters.are_apart() && change.from != 0 && linked_faces_ == change.from &&
+                      faces.revision() == change.to && linked_order_ == faces.order();
+    linked_faces_ = faces.revision();
+    linked_order_ = faces.order();
+    const std::size_t count = faces.face_count();
+    const auto fit = [&](gl::Buffer& buffer, const char* label, std::size_t bytes_of_face) {
+        gl::grow(buffer, label, count * bytes_of_face, some ? buffer.bytes() : 0);
+    };
+    fit(links_, "links", std::size_t(params.links) * sizeof(GLuint));
+    fit(from_emitters_, "from emitters", sizeof(glm::vec4));
+    fit(albedo_, "reflectance of faces", sizeof(GLuint));
+    for (gl::Buffer& buffer : packed_) fit(buffer, "radiance of faces between bounces", sizeof(glm::uvec2));
+    gl::grow(reflected_, "reflected by faces", count * sizeof(glm::vec4), reflected_.bytes());
     has_emitters_ = emitters.shine();
 
     voxels.grid().bind();
     voxels.faces().bind();
     voxels.pyramid().bind();
     walk.bind();
-    gl::Defines defines = {{"MARCH", "0"}, {"EMITTERS", emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0"}};
+    gl::Defines defines = {{"MARCH", "0"},
+                           {"EMITTERS", emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0"},
+                           {"SOME", some ? "1" : "0"}};
     defines.merge(voxels.pyramid().defines());
     defines.merge(emitters.defines());
     const gl::Program& link = link_.with(defines);
@@ -62,6 +73,9 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     links_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLinkBinding);
     from_emitters_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFromEmittersBinding);
     albedo_.bind(GL_SHADER_STORAGE_BUFFER, shared::kAlbedoBinding);
+    link.set("kept_faces", faces.kept());
+    link.set("changed_low", glm::vec3(change.low));
+    link.set("changed_high", glm::vec3(change.high + 1));
     link.use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, voxels.faces().face_groups().id());
     glDispatchComputeIndirect(0);

@@ -26,13 +26,23 @@ void add_warm_start(ParameterTable& table, BounceParams& params);
 // R(k) = R(0) + rho (mean of R(k - 1) over the links + what emitters send + what the sky sends): R(0) is what chapter 06's
 // faces reflect of direct light. The links depend on the scene alone, so a bounce is one look-up a link (the transport
 // matrix of radiosity, with one entry a link: Cohen & Wallace 1993, section 5.3).
+// Between two revisions of the faces, what of them is another: those in voxels low <= v <= high, and those that have no place of
+// their own (VoxelFaces::kept()).
+struct FaceChange {
+    Revision from = 0, to = 0;
+    glm::ivec3 low{0}, high{-1};
+};
+
 class Bounces {
 public:
     explicit Bounces(gl::Shaders& shaders);
 
-    // Where every face's light comes from, if the faces or the rays have changed; says whether they have.
+    // Where every face's light comes from, if the faces or the rays have changed; says whether they have. With a `change`
+    // since the last call, of those faces alone whose rays come by what has changed; the other rays meet what they met, but
+    // where a rounding decides between two voxels: leaps of another length round otherwise.
     bool link(const LitVoxels& voxels, const WalkVolume& walk, const Emitters& emitters, const ConeParams& cones,
-              const BounceParams& params);
+              const BounceParams& params, const FaceChange& change = {});
+    const gl::Buffer& links() const { return links_; }
     // What the faces reflect after params.bounces - 1 bounces from voxel to voxel, at least one, if anything has changed. A mean times an
     // albedo of at most 0.99, so no bounce adds more than the last one and the sum is bounded by R(0) / (1 - 0.99).
     bool run(const LitVoxels& voxels, const ConeParams& cones, const BounceParams& params);
@@ -49,8 +59,9 @@ private:
     gl::ProgramVariants link_, bounce_;
     gl::Buffer links_, from_emitters_, albedo_, packed_[2], reflected_, last_reflected_, change_;
     bool has_emitters_ = false;
-    // Walk volume, coverage, emitters, rays, links.
-    MadeFrom<Revision, Revision, Revision, float, int, float, int> linked_from_;
+    MadeFrom<Revision, Revision, Revision> linked_from_;          // walk volume, coverage, emitters
+    MadeFrom<float, int, float, int> linked_with_;                // rays, links
+    Revision linked_faces_ = 0, linked_order_ = 0;
     MadeFrom<Revision, Revision, float, BounceParams> made_from_;   // links, what is directly lit, sky
     Revision links_revision_ = 0, revision_ = 0;
     int count_ = 0;

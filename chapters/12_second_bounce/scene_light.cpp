@@ -23,7 +23,7 @@ SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene
 }
 
 void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan,
-                     const std::function<void()>& voxelize)
+                     const std::function<FaceChange()>& voxelize)
 {
     if (params_.voxels.update == int(Update::always)) shadow_maps_.forget();
     // What the lights see, if pixels or voxels ask.
@@ -31,7 +31,7 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, c
         app.pass("shadow maps", Scope::light, [&] { return shadow_maps_.draw(scene, params_.shadow_maps); });
 
     // Triangles -> voxels -> what their faces reflect of direct light.
-    voxelize();
+    const FaceChange change = voxelize();
     voxels_.shade(app, scene, shadow_maps_);
 
     // Where rays may leap, and what shines.
@@ -44,7 +44,7 @@ void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, c
         // The rays of faces ask the pyramid what covers the back of the place where they start.
         voxels_.filter_coverage(app);
         app.pass("links", Scope::scene,
-                 [&] { return bounces_.link(voxels_, walk_volume_, emitters_, cones, params_.bounces); });
+                 [&] { return bounces_.link(voxels_, walk_volume_, emitters_, cones, params_.bounces, change); });
         app.pass("further bounces", Scope::light, [&] { return bounces_.run(voxels_, cones, params_.bounces); });
     }
 

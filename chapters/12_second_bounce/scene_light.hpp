@@ -21,11 +21,14 @@ public:
 
     void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan)
     {
-        run(app, scene, cones, plan, [&] { voxels_.voxelize(app, scene); });
+        run(app, scene, cones, plan, [&] {
+            voxels_.voxelize(app, scene);
+            return FaceChange{};
+        });
     }
-    // `voxelize`: does the same for voxels().
+    // `voxelize`: does the same for voxels(), and says what has changed, if it knows.
     void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan,
-             const std::function<void()>& voxelize);
+             const std::function<FaceChange()>& voxelize);
 
     LitVoxels& voxels() { return voxels_; }
     const LitVoxels& voxels() const { return voxels_; }

@@ -51,8 +51,8 @@ DynamicVoxels::DynamicVoxels(gl::Shaders& shaders)
 {
 }
 
-void DynamicVoxels::run(App& app, const Scene& source, const GpuScene& scene, LitVoxels& voxels,
-                        const DynamicVoxelParams& params)
+FaceChange DynamicVoxels::run(App& app, const Scene& source, const GpuScene& scene, LitVoxels& voxels,
+                              const DynamicVoxelParams& params)
 {
     const LitVoxels::Parts parts = voxels.parts();
     params_ = params;
@@ -76,7 +76,8 @@ void DynamicVoxels::run(App& app, const Scene& source, const GpuScene& scene, Li
     });
 
     // What moves: out of the last voxels, into the new ones.
-    if (triangles_.moving.empty() || !moving_from_.differs(still_revision_, scene.geometry_revision(), params)) return;
+    if (triangles_.moving.empty() || !moving_from_.differs(still_revision_, scene.geometry_revision(), params)) return {};
+    const Revision from = parts.faces.revision();
     FaceLists& lists = parts.faces.edit();
     app.pass("take out", Scope::scene, [&] {
         take_out(parts, lists);
@@ -87,6 +88,18 @@ void DynamicVoxels::run(App& app, const Scene& source, const GpuScene& scene, Li
         parts.faces.add(scene, parts.grid, fragments_, still_.faces);
         parts.faces.divide(parts.grid, still_.faces, counted_.faces);
     });
+    return change_since(from, parts.faces.revision());
+}
+
+FaceChange DynamicVoxels::change_since(Revision from, Revision to) const
+{
+    FaceChange change{from, to, glm::ivec3(511), glm::ivec3(0)};
+    for (const shared::DynamicCounts& c : {last_counted_, counted_}) {
+        if (c.voxels == 0) continue;
+        change.low = glm::min(change.low, 511 - glm::ivec3(c.below_x, c.below_y, c.below_z));
+        change.high = glm::max(change.high, glm::ivec3(c.high_x, c.high_y, c.high_z));
+    }
+    return change;
 }
 
 void DynamicVoxels::take_out(const LitVoxels::Parts& parts, FaceLists& lists)

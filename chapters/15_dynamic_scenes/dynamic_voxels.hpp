@@ -2,7 +2,7 @@
 // moves is taken out of its last voxels and put into its new ones.
 #pragma once
 
-#include "07_anisotropic_mips/lit_voxels.hpp"
+#include "12_second_bounce/bounces.hpp"
 #include "15_dynamic_scenes/dynamic_structs.glsl"
 
 namespace conebook {
@@ -30,7 +30,9 @@ public:
     // The voxels and faces of `voxels` as LitVoxels::voxelize() makes them, but for the order of the lists; each of the steps
     // if something that it depends on has changed. Reads counters back to the CPU. Throws as ConservativeVoxelizer and
     // VoxelFaces do. `source` is the scene that `scene` was made from.
-    void run(App& app, const Scene& source, const GpuScene& scene, LitVoxels& voxels, const DynamicVoxelParams& params);
+    // Gives what of the faces has changed, when it was what moves alone.
+    FaceChange run(App& app, const Scene& source, const GpuScene& scene, LitVoxels& voxels,
+                   const DynamicVoxelParams& params);
 
     const shared::DynamicCounts& counted() const { return counted_; }
     std::vector<gl::Resource> resources() const;
@@ -40,6 +42,7 @@ private:
     void take_out(const LitVoxels::Parts& parts, FaceLists& lists);
     void put_in(const GpuScene& scene, const LitVoxels::Parts& parts, FaceLists& lists);
     void count_again(const LitVoxels::Parts& parts, FaceLists& lists) const;
+    FaceChange change_since(Revision from, Revision to) const;
     void carry_up(const LitVoxels::Parts& parts);
 
     gl::Program take_out_, put_in_, above_;

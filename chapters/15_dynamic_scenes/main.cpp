@@ -96,7 +96,7 @@ try {
 
         // What has changed of: shadow maps -> voxels, of what moves alone -> their direct light -> all bounces -> pyramids.
         scene_light.run(app, scene, camera_params.cones, plan, [&] {
-            dynamic_voxels.run(app, app.scene(), scene, scene_light.voxels(), dynamic_params);
+            return dynamic_voxels.run(app, app.scene(), scene, scene_light.voxels(), dynamic_params);
         });
 
         if (!scene_light.bounces().is_settled()) app.expect_more();

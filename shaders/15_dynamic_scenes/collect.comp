@@ -25,6 +25,13 @@ void main()
     bool lost = DROP == 1 && before != 0u;
     dynamic_voxels[atomicAdd(counts.voxels, 1u)] = DynamicVoxel(packed_voxel | (lost ? kLostVoxel : 0u), before);
     // end snippet
+    uvec3 high = uvec3(voxel), below = 511u - high;
+    atomicMax(counts.below_x, below.x);
+    atomicMax(counts.below_y, below.y);
+    atomicMax(counts.below_z, below.z);
+    atomicMax(counts.high_x, high.x);
+    atomicMax(counts.high_y, high.y);
+    atomicMax(counts.high_z, high.z);
     atomicAdd(counts.lost, lost ? 1u : 0u);
     atomicAdd(counts.faces, lost ? 0u : uint(bitCount(word & 63u)));
     atomicAdd(counts.new_voxels, before == 0u ? 1u : 0u);

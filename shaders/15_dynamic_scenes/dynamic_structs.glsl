@@ -23,7 +23,8 @@ struct DynamicCounts {
     uint lost;
     uint placed_faces;  // while they get their places
     uint placed_voxels;
-    uint unused0, unused1;
+    // The box of the list's voxels: 511 minus its lowest coordinates, and its highest ones, so that both begin at 0.
+    uint below_x, below_y, below_z, high_x, high_y, high_z;
 };
 
 CONEBOOK_SHARED_END
