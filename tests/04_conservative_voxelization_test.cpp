@@ -171,7 +171,7 @@ TEST(Voxelizer, FragmentsArePairsOfTriangleAndVoxel)
     const VoxelGrid grid(scene.bounds, {32});
     for (const Voxelizer kind : {Voxelizer::raster, Voxelizer::compute}) {
         ConservativeVoxelizer voxelizer(test_gl().shaders);
-        voxelizer.run(gpu_scene, grid, {int(kind), true, true});
+        voxelizer.run(gpu_scene, grid, {kind, true, true});
         std::size_t sum = 0;
         const auto counts = gl::read_uints(voxelizer.fragment_counts()), masks = gl::read_uints(voxelizer.occupancy());
         for (std::size_t i = 0; i < counts.size(); ++i) {

@@ -50,7 +50,7 @@ public:
                   bool show_visibility = false)
     {
         SoftShadowLighting lighting(test_gl().shaders);
-        params.shadows = int(method);
+        params.shadows = method;
         return read_picture(lighting.run(g_buffer_, lit_.scene, {lit_.grid, lit_.pyramid, walk_}, lit_.faces,
                                          lit_.shading, lit_.shadow_maps, cone_params, params, show_visibility));
     }

@@ -25,7 +25,7 @@ TEST_P(LiveParameters, ActInTheNextFrame)
 {
     FrameParams start = Frames::small();
     start.camera.accumulation.accumulate = false;
-    start.camera.shadows.shadows = int(ShadowMethod::cone);  // most passes have to do
+    start.camera.shadows.shadows = ShadowMethod::cone;  // most passes have to do
     Frames frames(asset(GetParam()), start);
     // The frame's picture is not tone mapped, so DisplayParams are not in it.
     const ParameterTable table = parameters_of(frames.params.scene, frames.params.camera);

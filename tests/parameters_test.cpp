@@ -13,13 +13,13 @@
 namespace conebook {
 namespace {
 
-constexpr int kStraight = 0, kRound = 1, kNone = 2;
+enum class Way { straight, round, none };
 
 struct Fields {
     float length = 0.75f;
     int count = 12;
     bool shown = true;
-    int way = kRound;
+    Way way = Way::round;
     int cones = 6;
     std::string words;
 };
@@ -59,10 +59,10 @@ TEST(Parameters, GoToTheirFields)
     EXPECT_EQ(fields.length, 2.5e-3f);
     EXPECT_EQ(fields.count, -1);
     EXPECT_FALSE(fields.shown);
-    EXPECT_EQ(fields.way, kNone);
+    EXPECT_EQ(fields.way, Way::none);
     EXPECT_EQ(fields.cones, 5);
     EXPECT_EQ(fields.words, "a:b=c,+d e");
-    EXPECT_EQ(table.values().numbers, (std::vector<double>{2.5e-3f, -1, 0, kNone, 5, 0}));
+    EXPECT_EQ(table.values().numbers, (std::vector<double>{2.5e-3f, -1, 0, double(Way::none), 5, 0}));
     EXPECT_EQ(table.values().texts, (std::vector<std::string>{"", "", "", "", "", "a:b=c,+d e"}));
     for (const Parameter& parameter : table.all()) EXPECT_FALSE(parameter.is_default()) << parameter.name;
     EXPECT_EQ(table.changed(), " length=0.0025 count=-1 shown=off way=none cones=5 'words=a:b=c,+d e'");
@@ -113,7 +113,7 @@ TEST(Presets, KeepEveryBitOfEveryValue)
         Fields saved, read;
         const ParameterTable saved_table = table_of(saved);
         ParameterTable read_table = table_of(read);
-        saved = {length, 64, false, kNone, 9, "a 'quoted' \"word\""};
+        saved = {length, 64, false, Way::none, 9, "a 'quoted' \"word\""};
         const CameraChoice camera{3, glm::dvec3(0.1, -2e6, 3.0), glm::dquat(0.5, 0.5, -0.5, 0.5), 0.7f};
         const LightChoice light{2, glm::vec3(0.1f, length, 30.0f), glm::dvec3(1e6, 0.1, -3.0),
                                 glm::dvec3(0.6, 0.0, 0.8)};
@@ -150,7 +150,7 @@ TEST(Presets, WhatTheyDoNotHoldStaysAsItIs)
     EXPECT_FALSE(read.camera.index || read.camera.position || read.camera.orientation || read.camera.y_fov);
     read = read_preset(preset.hold(R"({"camera": 2, "parameters": {"way": "straight"}})").file(), table);
     EXPECT_EQ(read.camera.index, 2);
-    EXPECT_EQ(fields.way, kStraight);
+    EXPECT_EQ(fields.way, Way::straight);
     EXPECT_EQ(fields.count, 7);
 }
 

@@ -69,7 +69,7 @@ public:
     }
     SoupPipeline(const Scene& scene, const Bounds& bounds, int voxels, Voxelizer voxelizer = Voxelizer::compute,
                  bool conservative = true)
-        : voxels_(scene, bounds, voxels, {int(voxelizer), conservative, false})
+        : voxels_(scene, bounds, voxels, {voxelizer, conservative, false})
     {
     }
     void voxelize() { voxels_.voxelize(); }

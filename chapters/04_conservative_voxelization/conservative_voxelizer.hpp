@@ -11,7 +11,7 @@ enum class Voxelizer : int { raster = 0, compute = 1 };
 struct VoxelizerParams {
     // raster: geometry shader and rasterizer find the columns; compute: a thread or some work groups a triangle. Both
     // give the same voxels; small triangles cost a software driver a third in compute shaders.
-    int voxelizer = int(Voxelizer::compute);
+    Voxelizer voxelizer = Voxelizer::compute;
     // false: plain rasterization, a pixel's centre and one voxel in depth; leaves holes. For chapter 04's comparison.
     bool conservative = true;
     // Keep how many fragments fell into each voxel: fragment_counts(). Costs a volume; for chapter 04's views.

@@ -31,7 +31,7 @@ try {
     VoxelGridParams grid_params;
     VoxelizerParams voxelizer_params;
     DisplayParams display_params;
-    int averaging = int(Averaging::sums);
+    Averaging averaging = Averaging::sums;
     bool count_changes = false;
     ParameterTable parameters = parameters_of(grid_params, voxelizer_params, display_params);
     parameters.add("averaging", averaging, {"sums", "compare_and_swap", "compare_and_swap_truncating", "racing_store"},
@@ -67,7 +67,7 @@ try {
 
         // Occupied voxels -> list of faces -> sums over fragments -> means.
         app.pass("average", Scope::scene, [&] { return faces.run(scene, grid, voxelizer); });
-        naive = averaging != int(Averaging::sums) ? &naive_average : nullptr;
+        naive = averaging != Averaging::sums ? &naive_average : nullptr;
         if (naive != nullptr)
             app.pass("naive average", [&] { naive_average.run(scene, grid, voxelizer, Averaging(averaging)); });
 

@@ -28,7 +28,7 @@ gl::Defines voxel_material_defines(const Material& m, bool has_vertex_alpha)
             {"SPECULAR_COLOR_TEXTURE", flag(m.specular_color_texture.present())},
             {"COVERAGE_TEXTURE", flag(m.alpha_mode == AlphaMode::mask && m.base_color_texture.present())},
             {"VERTEX_ALPHA", flag(m.alpha_mode == AlphaMode::mask && has_vertex_alpha)},
-            {"EMISSION", flag(m.unlit || m.emission != glm::vec3(0.0f))}};
+            {"EMISSION", flag(m.shines())}};
 }
 
 }  // namespace

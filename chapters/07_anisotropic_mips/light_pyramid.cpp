@@ -25,8 +25,9 @@ const gl::Defines kSplitCoverage = {{"SPLIT_COVERAGE", "1"}};
 
 gl::Defines storing_defines(const PyramidParams& params)
 {
-    gl::Defines defines{{"DIRECTIONS", std::to_string(params.directions)}, {"FORMAT", std::to_string(params.format)}};
-    if (LightFormat(params.format) == LightFormat::r11g11b10f)
+    gl::Defines defines{{"DIRECTIONS", std::to_string(int(params.directions))},
+                        {"FORMAT", std::to_string(int(params.format))}};
+    if (params.format == LightFormat::r11g11b10f)
         defines.insert(kSplitCoverage.begin(), kSplitCoverage.end());
     return defines;
 }
@@ -197,7 +198,7 @@ const gl::Texture& PyramidViewPass::run(const VoxelGrid& grid, const gl::Texture
     pyramid.bind();
     const gl::Program& program = program_.with(pyramid.defines());
     program.set("level", std::min(level, grid.levels() - 1));
-    program.set("direction", params.direction);
+    program.set("direction", int(params.direction));
     program.set("show_coverage", show_coverage);
     program.set("with_emission", emission != nullptr);
     (emission != nullptr ? emission : &pyramid)->bind_as_emission();

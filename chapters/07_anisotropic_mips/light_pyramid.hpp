@@ -19,8 +19,8 @@ enum class LightFormat : int { rgba16f = 0, rgba8 = 1, r11g11b10f = 2 };
 enum class LightPart { all, reflected, emitted, none };
 
 struct PyramidParams {
-    int directions = int(Directions::per_face);
-    int format = int(LightFormat::rgba16f);
+    Directions directions = Directions::per_face;
+    LightFormat format = LightFormat::rgba16f;
     bool operator==(const PyramidParams&) const = default;
 };
 void add_parameters(ParameterTable& table, PyramidParams& params);
@@ -84,8 +84,11 @@ private:
     gl::Buffer scale_;
 };
 
+// Whose light a view shows: what left towards one side, or towards the camera.
+enum class PyramidSide : int { minus_x, plus_x, minus_y, plus_y, minus_z, plus_z, seen };
+
 struct PyramidViewParams {
-    int direction = 6;  // -x +x -y +y -z +z, or the side that is seen
+    PyramidSide direction = PyramidSide::seen;
 };
 void add_parameters(ParameterTable& table, PyramidViewParams& params);
 

@@ -24,7 +24,7 @@ LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxel
 void LitVoxels::voxelize(App& app, const GpuScene& scene)
 {
     grid_.fit(scene.bounds(), params_.grid);
-    if (params_.update == int(Update::always)) voxelizer_.forget();
+    if (params_.update == Update::always) voxelizer_.forget();
     app.pass("voxelize", Scope::scene, [&] { return voxelizer_.run(scene, grid_, params_.voxelizer); });
     app.pass("average", Scope::scene, [&] { return faces_.run(scene, grid_, voxelizer_); });
 }

@@ -14,7 +14,7 @@ struct LitVoxelParams {
     VoxelizerParams voxelizer;
     VoxelShadingParams shading;
     PyramidParams pyramid;
-    int update = int(Update::on_change);
+    Update update = Update::on_change;
 };
 void add_parameters(ParameterTable& table, LitVoxelParams& params);
 

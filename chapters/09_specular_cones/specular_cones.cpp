@@ -32,7 +32,7 @@ void SpecularCones::bind(const gl::Program& program, const ConeParams& cones, co
 {
     set_cones(program, cones);
     program.set("start_offset", params.specular_start);
-    program.set("interleave", cones.interleave == int(Interleave::on));
+    program.set("interleave", cones.interleave == Interleave::on);
     program.set("specular_cones", params.specular_cones);
     program.set("lobe_share", params.lobe_share);
     constexpr float kGoldenAngle_rad = 2.39996323f;
@@ -55,7 +55,7 @@ const gl::Texture& SpecularCones::run(const GBuffer& g_buffer, const ConeVolumes
 
     // Neighbours share wide lobes, there and back again; then what the surface reflects of it.
     directional_albedo_.bind(16);
-    share_.set("interleave", cones.interleave == int(Interleave::on));
+    share_.set("interleave", cones.interleave == Interleave::on);
     share_.set("plane_tolerance", volumes.grid.voxel_size_m());
     specular_.bind(17);
     share_.set("window_begin", -2);

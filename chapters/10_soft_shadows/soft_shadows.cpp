@@ -15,9 +15,9 @@ void add_parameters(ParameterTable& table, SoftShadowParams& params)
 std::vector<Need> soft_shadow_needs(const SoftShadowParams& params, bool has_lights)
 {
     constexpr const char* kAsked[] = {"shadows=map", "shadows=cone", "shadows=volume"};
-    const std::string reason = has_lights ? kAsked[params.shadows] : "the scene has no lights but surfaces that shine";
-    return {{"shadow cones", has_lights && params.shadows == int(ShadowMethod::cone), reason},
-            {"visibility volume", has_lights && params.shadows == int(ShadowMethod::volume), reason}};
+    const std::string reason = has_lights ? kAsked[int(params.shadows)] : "the scene has no lights but surfaces that shine";
+    return {{"shadow cones", has_lights && params.shadows == ShadowMethod::cone, reason},
+            {"visibility volume", has_lights && params.shadows == ShadowMethod::volume, reason}};
 }
 
 SoftShadowLighting::SoftShadowLighting(gl::Shaders& shaders)
@@ -51,11 +51,11 @@ const gl::Texture& SoftShadowLighting::run(const GBuffer& g_buffer, const GpuSce
                                            const SoftShadowParams& params, bool show_visibility)
 {
     gl::fit_to_pixels(color_, framebuffer_, "softly shadowed light", GL_RGBA32F, g_buffer.size());
-    if (params.shadows == int(ShadowMethod::volume)) fill_volume(volumes.grid, faces, shading);
+    if (params.shadows == ShadowMethod::volume) fill_volume(volumes.grid, faces, shading);
     g_buffer.bind();
     volumes.bind();
     gl::Defines defines = volumes.pyramid.defines();
-    defines["METHOD"] = std::to_string(params.shadows);
+    defines["METHOD"] = std::to_string(int(params.shadows));
     const gl::Program& lighting = lighting_.with(defines);
     scene.bind_lights(lighting);
     shadow_maps.bind(lighting);

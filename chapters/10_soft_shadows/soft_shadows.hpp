@@ -11,7 +11,7 @@ enum class ShadowMethod : int { map = 0, cone = 1, volume = 2 };
 
 struct SoftShadowParams {
     // map: chapter 03; cone: one cone a light; volume: the visibility of chapter 06 (first three lights), coarse.
-    int shadows = int(ShadowMethod::map);
+    ShadowMethod shadows = ShadowMethod::map;
     // Radius of point and spot lights in m, 0.001 .. 10: glTF's lights are points, so their size is given here.
     float light_radius = 0.05f;
     // Full angle of directional lights in degrees, 0.05 .. 60; the sun's is 0.53.
@@ -25,7 +25,7 @@ struct SoftShadowParams {
 void add_parameters(ParameterTable& table, SoftShadowParams& params);
 
 // Pixels look into the shadow maps.
-inline bool asks_shadow_maps(const SoftShadowParams& pixels) { return pixels.shadows == int(ShadowMethod::map); }
+inline bool asks_shadow_maps(const SoftShadowParams& pixels) { return pixels.shadows == ShadowMethod::map; }
 
 // Shadow cones and visibility volume: which of them these parameters ask for, in a scene with lights or without.
 std::vector<Need> soft_shadow_needs(const SoftShadowParams& params, bool has_lights);

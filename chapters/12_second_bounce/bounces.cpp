@@ -65,7 +65,7 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     const gl::Program& link = link_.with(defines);
     ConeParams rays = cones;
     rays.cones = params.links;
-    rays.interleave = int(Interleave::on);
+    rays.interleave = Interleave::on;
     ConeDirections directions;
     directions.update(rays, 0, kSets);
     directions.bind(link, rays);

@@ -60,7 +60,7 @@ private:
     gl::Buffer links_, from_emitters_, albedo_, packed_[2], reflected_, last_reflected_, change_;
     bool has_emitters_ = false;
     MadeFrom<Revision, Revision, Revision> linked_from_;          // walk volume, coverage, emitters
-    MadeFrom<float, int, float, int> linked_with_;                // rays, links
+    MadeFrom<float, ConeTable, float, int> linked_with_;          // rays, links
     Revision linked_faces_ = 0, linked_order_ = 0;
     MadeFrom<Revision, Revision, float, BounceParams> made_from_;   // links, what is directly lit, sky
     Revision links_revision_ = 0, revision_ = 0;

@@ -12,7 +12,7 @@ LightPlan plan_light(const SceneTraits& scene, const VoxelShadingParams& voxels,
     // Shadows of what lights reach straight.
     const std::vector<Need> by_voxels = soft_shadow_needs(pixels, scene.has_lights);
     const bool pixels_ask = scene.has_lights && asks_shadow_maps(pixels);
-    const bool voxels_ask = scene.has_lights && voxels.voxel_shadows == int(VoxelShadows::map);
+    const bool voxels_ask = scene.has_lights && voxels.voxel_shadows == VoxelShadows::map;
 
     // Light by way of other surfaces.
     const std::string bounces_asked = "bounces=" + std::to_string(bounces.bounces);

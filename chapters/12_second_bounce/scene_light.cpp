@@ -25,7 +25,7 @@ SceneLight::SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene
 void SceneLight::run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan,
                      const std::function<FaceChange()>& voxelize)
 {
-    if (params_.voxels.update == int(Update::always)) shadow_maps_.forget();
+    if (params_.voxels.update == Update::always) shadow_maps_.forget();
     // What the lights see, if pixels or voxels ask.
     if (plan.shadow_maps.used)
         app.pass("shadow maps", Scope::light, [&] { return shadow_maps_.draw(scene, params_.shadow_maps); });

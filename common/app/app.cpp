@@ -10,6 +10,7 @@
 #include "app/app_window.hpp"
 #include "app/needs.hpp"
 #include "scene/objects.hpp"
+#include "scene/radical_inverse.hpp"
 
 namespace conebook {
 
@@ -127,18 +128,6 @@ void App::time_pass(const std::string& name, Scope scope, const std::function<bo
         timer_.time(name, scope, work, statistics_);
 }
 
-namespace {
-
-// Van der Corput's radical inverse: the first two, of bases 2 and 3, are Halton's points.
-float radical_inverse(int base, int i)
-{
-    float value = 0.0f, digit = 1.0f / float(base);
-    for (; i > 0; i /= base, digit /= float(base)) value += digit * float(i % base);
-    return value;
-}
-
-}  // namespace
-
 int App::sample(bool accumulate, Revision light)
 {
     const bool changed =
@@ -150,7 +139,8 @@ int App::sample(bool accumulate, Revision light)
 
 shared::CameraData App::camera() const
 {
-    const glm::vec2 offset(radical_inverse(2, sample_), radical_inverse(3, sample_));
+    // Halton's points (pbrt 4ed, 8.6.1)
+    const glm::vec2 offset(float(radical_inverse(2, unsigned(sample_))), float(radical_inverse(3, unsigned(sample_))));
     return moved(camera_data(camera_, size_, bounds_with_objects(scene_)), offset - glm::round(offset));
 }
 

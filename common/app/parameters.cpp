@@ -72,6 +72,7 @@ double parse_number(const std::string& name, const std::string& text)
 double Parameter::value() const
 {
     if (as_text != nullptr) return 0.0;
+    if (choice) return double(choice());
     return as_float != nullptr ? double(*as_float) : as_int != nullptr ? double(*as_int) : double(*as_bool);
 }
 
@@ -80,6 +81,7 @@ void Parameter::set(double value) const
     if (as_float != nullptr) *as_float = float(value);
     if (as_int != nullptr) *as_int = int(value);
     if (as_bool != nullptr) *as_bool = value != 0.0;
+    if (choose) choose(int(value));
 }
 
 bool Parameter::is_default() const { return as_text != nullptr ? *as_text == default_text : value() == default_value; }
@@ -121,42 +123,55 @@ void ParameterTable::insert(Parameter parameter)
 void ParameterTable::add(const std::string& name, float& field, double min, double max, const std::string& unit,
                          const std::string& help)
 {
-    insert({name, unit, help, min, max, &field, nullptr, nullptr, {}, {}, field});
+    insert({.name = name, .unit = unit, .help = help, .min = min, .max = max, .as_float = &field, .default_value = field});
 }
 
 void ParameterTable::add(const std::string& name, int& field, int min, int max, const std::string& unit,
                          const std::string& help)
 {
-    insert({name, unit, help, double(min), double(max), nullptr, &field, nullptr, {}, {}, double(field)});
+    insert({.name = name,
+            .unit = unit,
+            .help = help,
+            .min = double(min),
+            .max = double(max),
+            .as_int = &field,
+            .default_value = double(field)});
 }
 
 void ParameterTable::add_values(const std::string& name, int& field, std::vector<int> values, const std::string& help)
 {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    Parameter parameter{name, "", help, double(*least), double(*most), nullptr, &field, nullptr, {}, {}, double(field)};
-    parameter.values = std::move(values);
-    insert(std::move(parameter));
+    insert({.name = name,
+            .help = help,
+            .min = double(*least),
+            .max = double(*most),
+            .as_int = &field,
+            .values = values,
+            .default_value = double(field)});
 }
 
 void ParameterTable::add(const std::string& name, bool& field, const std::string& help)
 {
-    insert({name, "", help, 0.0, 1.0, nullptr, nullptr, &field, {}, {}, field ? 1.0 : 0.0});
+    insert({.name = name, .help = help, .max = 1.0, .as_bool = &field, .default_value = field ? 1.0 : 0.0});
 }
 
-void ParameterTable::add(const std::string& name, int& field, std::vector<std::string> choices, const std::string& help)
+void ParameterTable::add_choice(const std::string& name, std::function<int()> choice, std::function<void(int)> choose,
+                                std::vector<std::string> choices, const std::string& help)
 {
-    const double last = double(choices.size()) - 1.0;
-    insert({name, "", help, 0.0, last, nullptr, &field, nullptr, std::move(choices), {}, double(field)});
+    const double last = double(choices.size()) - 1.0, now = double(choice());
+    insert({.name = name,
+            .help = help,
+            .max = last,
+            .choice = std::move(choice),
+            .choose = std::move(choose),
+            .choices = std::move(choices),
+            .default_value = now});
 }
 
 void ParameterTable::add(const std::string& name, std::string& field, std::function<void(const std::string&)> check,
                          const std::string& help)
 {
-    Parameter parameter{name, "", help};
-    parameter.as_text = &field;
-    parameter.default_text = field;
-    parameter.check = std::move(check);
-    insert(std::move(parameter));
+    insert({.name = name, .help = help, .as_text = &field, .default_text = field, .check = std::move(check)});
 }
 
 void ParameterTable::set(const std::string& assignment)
@@ -194,7 +209,7 @@ void ParameterTable::set(const std::string& name, const std::string& text)
     }
     const auto choice = std::find(found->choices.begin(), found->choices.end(), text);
     if (choice != found->choices.end()) {
-        *found->as_int = int(choice - found->choices.begin());
+        found->choose(int(choice - found->choices.begin()));
         return;
     }
     const bool out_of_choices = !found->choices.empty();

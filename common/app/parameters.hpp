@@ -3,21 +3,24 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace conebook {
 
 struct Parameter {
-    std::string name, unit, help;
+    std::string name{}, unit{}, help{};
     double min = 0.0, max = 0.0;
-    float* as_float = nullptr;            // exactly one of the three, or as_text, is set
+    float* as_float = nullptr;  // one of these four is set, or the two functions of an enumeration
     int* as_int = nullptr;
     bool* as_bool = nullptr;
-    std::vector<std::string> choices{};   // with as_int: its values by name, 0, 1, 2, ...
-    std::vector<int> values{};            // with as_int and no choices: the only ones allowed, if any
+    std::string* as_text = nullptr;  // it has no number, so that value() and default_value are 0
+    std::function<int()> choice{};
+    std::function<void(int)> choose{};
+    std::vector<std::string> choices{};  // an enumeration's values by name, 0, 1, 2, ...
+    std::vector<int> values{};           // with as_int: the only ones allowed, if any
     double default_value = 0.0;
-    std::string* as_text = nullptr;       // a text: it has no number, so that of value() and default_value is 0
-    std::string default_text{};           // "none" stands for an empty one wherever it is written
+    std::string default_text{};  // "none" stands for an empty one wherever it is written
     std::function<void(const std::string&)> check{};  // of a text: throws std::runtime_error with what is wrong with it
     double value() const;
     void set(double value) const;  // into the field; must be one of those allowed
@@ -42,9 +45,16 @@ public:
     void add(const std::string& name, int& field, int min, int max, const std::string& unit, const std::string& help);
     void add_values(const std::string& name, int& field, std::vector<int> values, const std::string& help);  // one of them
     void add(const std::string& name, bool& field, const std::string& help);
-    void add(const std::string& name, int& field, std::vector<std::string> choices, const std::string& help);
     void add(const std::string& name, std::string& field, std::function<void(const std::string&)> check,
              const std::string& help);
+    // An enumeration whose values are 0, 1, 2, ... by the names in `choices`.
+    template <typename Enum>
+        requires std::is_enum_v<Enum>
+    void add(const std::string& name, Enum& field, std::vector<std::string> choices, const std::string& help)
+    {
+        add_choice(
+            name, [&field] { return int(field); }, [&field](int value) { field = Enum(value); }, std::move(choices), help);
+    }
 
     // "NAME=VALUE" of the command line. Throws as the other one does, with --set before the name.
     void set(const std::string& assignment);
@@ -60,6 +70,8 @@ public:
     std::string listing() const;
 
 private:
+    void add_choice(const std::string& name, std::function<int()> choice, std::function<void(int)> choose,
+                    std::vector<std::string> choices, const std::string& help);
     void insert(Parameter parameter);
     std::vector<Parameter> parameters_;
 };

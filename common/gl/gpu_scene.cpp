@@ -179,8 +179,6 @@ void add(MaterialUse& sum, const MaterialUse& one)
     sum.seen_areas_m2 += one.seen_areas_m2;
 }
 
-bool shines(const Material& m) { return m.emission != glm::vec3(0.0f) || m.unlit; }
-
 }  // namespace
 
 GpuScene::GpuScene(const Scene& scene)
@@ -200,7 +198,7 @@ void GpuScene::set_triangles(const Scene& scene, std::size_t same_images)
     std::vector<shared::MaterialData> materials;
     for (const Material& m : scene.materials) materials.push_back(material_data(m));
     material_buffer_ = gl::Buffer("materials", materials);
-    has_emission_ = std::any_of(materials_.begin(), materials_.end(), shines);
+    has_emission_ = std::any_of(materials_.begin(), materials_.end(), std::mem_fn(&Material::shines));
     find_dynamic(scene);
 
     std::vector<GLuint> triangle_materials(triangle_count_, 0u);
@@ -292,7 +290,7 @@ void GpuScene::set_material(const Scene& scene, std::size_t material)
     materials_[material] = scene.materials[material];
     const shared::MaterialData data = material_data(materials_[material]);
     material_buffer_.write(material * kMaterialStride, sizeof data, &data);
-    has_emission_ = std::any_of(materials_.begin(), materials_.end(), shines);
+    has_emission_ = std::any_of(materials_.begin(), materials_.end(), std::mem_fn(&Material::shines));
 }
 
 void GpuScene::find_dynamic(const Scene& scene)

@@ -92,22 +92,25 @@ float coverage_left(WalkRay ray, uint word) { return dot(abs(ray.direction), cov
 // much of it is in the cell is known from its side across the axis b that the normal is nearest to of those along which
 // the ray goes forward: coverage A_b = s |n_b|, so s |n_a| on the others. A thin sheet has a side on its back in the
 // same voxel; it is left out until the ray has risen above its blur.
-// snippet: coverage_met_above
-float coverage_met_above(WalkRay ray, uint word, RayStart start, float t)
+// snippet: coverage_above
+vec3 coverage_above(vec3 direction, vec3 met, vec3 leaving, float unit, RayStart start, float t)
 {
-    vec3 met = coverage_bits(word, ray.face_shifts);
-    vec3 leaving = coverage_bits(word, leaving_shifts(ray));
-    vec3 n = abs(start.normal), forward = n * step(0.0, start.normal * ray.direction);
+    vec3 n = abs(start.normal), forward = n * step(0.0, start.normal * direction);
     vec2 nearest = forward.x >= forward.y && forward.x >= forward.z ? vec2(leaving.x, forward.x)
                    : forward.y >= forward.z                         ? vec2(leaving.y, forward.y)
                                                                     : vec2(leaving.z, forward.z);
     vec3 shown = (n - forward) / max(nearest.y, 0.1);  // of its own surface, per coverage A_b
-    vec3 rounding = 0.5 / kWalkUnits * (1.0 + shown);  // both coverages are rounded to units
+    vec3 rounding = 0.5 * unit * (1.0 + shown);        // both coverages are rounded to units
     vec3 others = max(met - shown * nearest.x - rounding, vec3(0.0));
-    vec3 not_sheet = 1.0 - start.sheet * step(t * dot(start.sheet, abs(ray.direction)), kSheetBlur);
-    return dot(abs(ray.direction), others * not_sheet);
+    return others * (1.0 - start.sheet * step(t * dot(start.sheet, abs(direction)), kSheetBlur));
 }
 // end snippet
+
+float coverage_met_above(WalkRay ray, uint word, RayStart start, float t)
+{
+    vec3 met = coverage_bits(word, ray.face_shifts), leaving = coverage_bits(word, leaving_shifts(ray));
+    return dot(abs(ray.direction), coverage_above(ray.direction, met, leaving, 1.0 / kWalkUnits, start, t));
+}
 
 // Until where a ray is in the blur of the surface that it starts from; 0 where there is none.
 float own_blur_end(RayStart start, vec3 direction)
