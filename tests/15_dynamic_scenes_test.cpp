@@ -55,7 +55,7 @@ TEST(DynamicScenes, EachEventRunsWhatDependsOnIt)
     expect("the camera moves", {});
     frames.params.camera.composite.bounce_strength = 2.0f;
     expect("a setting of the pixels", {});
-    frames.params.dynamic.overlap = int(Overlap::drop);
+    frames.params.dynamic.overlap = Overlap::drop;
     expect("overlap", once({"take out", "put in", "average moving", "voxel shading", "walk volume", "coverage of voxels",
                             "links", "further bounces", "light pyramid"}));
     frames.params.scene.voxels.grid.voxels = 28;

@@ -134,7 +134,7 @@ void DynamicVoxels::put_in(const GpuScene& scene, const LitVoxels::Parts& parts,
     fragments_.bind();
     list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kDynamicVoxelBinding);
     counts_.bind(GL_SHADER_STORAGE_BUFFER, shared::kDynamicCountBinding);
-    const gl::Program& collect = collect_.with({{"DROP", params_.overlap == int(Overlap::drop) ? "1" : "0"}});
+    const gl::Program& collect = collect_.with({{"DROP", params_.overlap == Overlap::drop ? "1" : "0"}});
     collect.use();
     for (const shared::FragmentRange& range : fragments_.ranges()) {
         collect.set("first_fragment", range.begin);
