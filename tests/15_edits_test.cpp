@@ -1,5 +1,5 @@
-// Any way to a scene ends in its picture: objects that came, went, moved, changed material and were switched between dynamic
-// and static, frame by frame, against a program that begins with them.
+// Any way to a scene ends in its picture: objects that came, went, moved, changed material and were switched between
+// dynamic and static, frame by frame, against a program that begins with them.
 #include <cmath>
 
 #include "15_dynamic_scenes/scene_objects.hpp"
