@@ -22,7 +22,7 @@ public:
           emitter_light_(test_gl().shaders)
     {
         walk_.run(lit_.grid, lit_.faces);
-        emitters_.run(lit_.grid, lit_.faces, lit_.shading, {});
+        emitters_.run(lit_.scene, lit_.grid, lit_.faces, lit_.shading, {});
         lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), lit_.shading.revision(), {},
                          emitters_.part_of_voxels());
         look(camera);

@@ -104,7 +104,7 @@ public:
     {
         return voxels_.voxelizer.statistics_buffer().read_at<shared::VoxelStatistics>(0);
     }
-    std::size_t fragment_count() const { return voxels_.voxelizer.fragment_count(); }
+    std::size_t fragment_count() const { return voxels_.voxelizer.fragments().count(); }
     double total_area_voxels() const
     {
         double sum = 0.0;

@@ -91,7 +91,7 @@ try {
     const shared::VoxelStatistics counted = faces.counted();
     std::vector<Count> counts = {{"occupied voxels", double(counted.voxels), ""},
                                  {"occupied faces", double(counted.faces), ""},
-                                 {"fragments", double(voxelizer.fragment_count()), ""},
+                                 {"fragments", double(voxelizer.fragments().count()), ""},
                                  {"triangles without area", double(counted.degenerate), ""}};
     if (naive != nullptr) counts.push_back({"RMS error of the naive mean", rms_error(*naive, faces), ""});
     if (count_changes) counts.push_back({"values that changed between frames", changes.most_changed(), ""});

@@ -46,6 +46,7 @@ try {
             app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_map_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
+        voxels.voxelize(app, scene);
         voxels.shade(app, scene, shadow_maps);
         voxels.filter(app);
 

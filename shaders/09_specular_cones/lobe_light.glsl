@@ -16,6 +16,7 @@ uniform int specular_cones;
 uniform bool interleave;  // neighbours trace other parts of the lobe and share them
 uniform float lobe_share;
 uniform float start_offset;
+uniform float range_specular;  // m, beyond it nothing is seen but the sky; 0: none
 uniform float turn;       // rad, of the points in the lobe: another one for each of many pictures of the same scene
 layout(location = 0) out vec4 lobe_light;  // rgb: mean radiance in the lobe, a: 1 where there is a lobe
 
@@ -59,7 +60,8 @@ const float kGoldenAngle = 2.39996323;  // rad
 vec3 trace_lobe(RayStart start, vec3 direction, float tan_half)
 {
     WalkRay ray = walk_ray(start.position, direction);
-    float exit = exit_distance(start.position, direction, 0.0), end = exit - kBeforeSide;
+    float reach = reach_of(range_specular);
+    float exit = min(exit_distance(start.position, direction, 0.0), reach), end = exit - kBeforeSide;
     float own_end = own_blur_end(start, direction), t = 0.0, open = 1.0;
     vec3 radiance = vec3(0.0);
     while (t < end && open > 1.0 - kStopped) {
@@ -70,7 +72,7 @@ vec3 trace_lobe(RayStart start, vec3 direction, float tan_half)
         open -= stopped;
     }
     if (open == 0.0) return radiance;
-    bool closed = closed_at(ray, start.position, exit);
+    bool closed = exit < reach && closed_at(ray, start.position, exit);
     return radiance + open * (closed ? light_from(start.position, direction, exit, level_of(2.0 * exit * tan_half))
                                      : sky_radiance);
 }

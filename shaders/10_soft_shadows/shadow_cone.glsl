@@ -12,6 +12,7 @@ uniform float start_offset;      // voxels from the middle of the surface's own 
 uniform float light_radius;      // m, of point and spot lights
 uniform float light_half_angle;  // rad, of directional lights
 uniform int shadow_cones;        // cones to a light
+uniform float range_shadow;      // m, beyond it nothing throws a shadow; 0: none
 
 const float kMaxSine = 0.95;            // a light may come closer than its radius
 const float kGoldenAngle = 2.39996323;  // rad
@@ -37,6 +38,7 @@ float cone_visibility(vec3 position, vec3 normal, LightSample light)
     float sine = min(directional ? sin(light_half_angle) : light_radius / light.distance, kMaxSine);
     float tan_light = sine / sqrt(1.0 - sine * sine);
     float to_light = directional ? kInfiniteDistance : max(light.distance - light_radius, 0.0) / grid.origin.w;
+    to_light = min(to_light, reach_of(range_shadow));
     RayStart start = start_above(grid_from_scene(position), normal, start_offset);
     mat3 frame = frame_around(light.direction);
     float open = 0.0, all = 0.0;
