@@ -165,7 +165,7 @@ void measure(const Scene& scene, PatchMesh& mesh)
     std::vector<glm::vec3> moments(count, glm::vec3(0.0f));  // area times the middle, about the vertex, m^3
     for (const Draw& draw : mesh.draws) {
         const Material& material = scene.materials[std::size_t(draw.material)];
-        const bool emits = material.unlit || material.emission != glm::vec3(0.0f);
+        const bool emits = material.shines();
         for (std::size_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3) {
             const float third = glm::length(cross_of(mesh, i)) / 6.0f;
             const glm::vec3 flux =
