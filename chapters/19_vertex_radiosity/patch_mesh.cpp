@@ -83,9 +83,8 @@ private:
         return glm::dot(d, d);
     }
 
+    // Adds what becomes of a triangle; says whether it was cut. The first corner is turned so that there are three cases.
     // snippet: split
-    // Adds what becomes of a triangle; says whether it was cut. The first corner is turned so that there are three
-    // cases.
     bool split(const Corners& t, std::vector<Corners>& out)
     {
         bool cut[3];
