@@ -55,13 +55,13 @@ TEST(DynamicScenes, EachEventRunsWhatDependsOnIt)
     expect("the camera moves", {});
     frames.params.camera.composite.bounce_strength = 2.0f;
     expect("a setting of the pixels", {});
-    frames.params.dynamic.overlap = int(Overlap::drop);
+    frames.params.dynamic.overlap = Overlap::drop;
     expect("overlap", once({"take out", "put in", "average moving", "voxel shading", "walk volume", "coverage of voxels",
                             "links", "further bounces", "light pyramid"}));
     frames.params.scene.voxels.grid.voxels = 28;
     expect("another grid", once({"voxelize still", "average still", "put in", "average moving", "voxel shading",
                                  "walk volume", "coverage of voxels", "links", "further bounces", "light pyramid"}));
-    frames.params.scene.voxels.update = int(Update::always);
+    frames.params.scene.voxels.update = Update::always;
     Runs all = kFirst;
     all.erase("pose");  // nothing is made of it
     for (int frame = 0; frame < 2; ++frame) EXPECT_EQ(frames.draw(), all + kCamera) << "update=always";

@@ -137,7 +137,7 @@ TEST(DynamicVoxels, HalfAndWhollyOutsideTheGrid)
 TEST(DynamicVoxels, DropLosesTheCommonVoxelsAndNoOthers)
 {
     MovingParams params = MovingFrames::small(32);
-    params.dynamic.overlap = int(Overlap::drop);
+    params.dynamic.overlap = Overlap::drop;
     MovingFrames frames(asset("cornell_box"), params, instead(ball_through_wall()));
     const TriangleSets sets = triangle_sets(frames.app().scene());
     for (const float time_s : {0.0f, 1.0f, 0.9f, 2.0f}) {
@@ -164,7 +164,7 @@ TEST(DynamicVoxels, DropLosesTheCommonVoxelsAndNoOthers)
     }
     // And what it loses comes back.
     frames.params.time = 1.0f;
-    frames.params.dynamic.overlap = int(Overlap::merge);
+    frames.params.dynamic.overlap = Overlap::merge;
     frames.light_frame();
     EXPECT_EQ(moved(frames), from_nothing(frames));
 }

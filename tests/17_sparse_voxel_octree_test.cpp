@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "17_sparse_voxel_octree/brick_pool.hpp"
+#include "17_sparse_voxel_octree/photons.hpp"
 #include "lit_scene.hpp"
 #include "scene_builder.hpp"
 
@@ -23,7 +24,8 @@ struct Lattice {
     glm::dvec4& at(const glm::ivec3& p) { return values[std::size_t((p.z * count + p.y) * count + p.x)]; }
     glm::dvec4 get(const glm::ivec3& p) const
     {
-        const bool inside = glm::all(glm::greaterThanEqual(p, glm::ivec3(0))) && glm::all(glm::lessThan(p, glm::ivec3(count)));
+        const bool inside =
+            glm::all(glm::greaterThanEqual(p, glm::ivec3(0))) && glm::all(glm::lessThan(p, glm::ivec3(count)));
         return inside ? values[std::size_t((p.z * count + p.y) * count + p.x)] : glm::dvec4(0.0);
     }
     explicit Lattice(int n) : count(n), values(std::size_t(n) * std::size_t(n) * std::size_t(n), glm::dvec4(0.0)) {}
@@ -46,7 +48,10 @@ struct TreeScene {
     BrickPool bricks;
 
     explicit TreeScene(const Scene& source, const OctreeParams& tree_params = {}, Transfer transfer = Transfer::sum)
-        : voxels(source, kBounds, kSide), shadow_maps(test_gl().shaders), shading(test_gl().shaders), tree(test_gl().shaders),
+        : voxels(source, kBounds, kSide),
+          shadow_maps(test_gl().shaders),
+          shading(test_gl().shaders),
+          tree(test_gl().shaders),
           bricks(test_gl().shaders)
     {
         voxels.average();
@@ -54,7 +59,7 @@ struct TreeScene {
         shading.run(voxels.scene, voxels.grid, voxels.voxelizer, voxels.faces, shadow_maps, {});
         tree.build(voxels.grid, voxels.faces, tree_params);
         bricks.fill(voxels.grid, voxels.faces, tree, shading.radiance(), shading.revision(),
-                    {int(transfer), int(BrickFormat::rgba32f)});
+                    {transfer, BrickFormat::rgba32f});
     }
 
     // The samples of all bricks: (level, direction, place) -> values, one for each copy.
@@ -138,7 +143,9 @@ struct TreeScene {
                 Lattice next((2 << l) + 1);
                 glm::ivec3 front(0);
                 front[axis] = direction % 2 == 1 ? 1 : -1;
-                const auto cut = [](const glm::dvec4& v, double open) { return v.a > open ? v * (std::max(open, 0.0) / v.a) : v; };
+                const auto cut = [](const glm::dvec4& v, double open) {
+                    return v.a > open ? v * (std::max(open, 0.0) / v.a) : v;
+                };
                 for_each_place(next.count, [&](const glm::ivec3& p) {
                     const double weight = weights[b][coarse][std::size_t(p[b])] * weights[c][coarse][std::size_t(p[c])];
                     for (int i = 0; i < 9 && weight > 0.0; ++i) {
@@ -150,7 +157,8 @@ struct TreeScene {
                         sum += cut(level.get(old), 1.0 - sum.a);
                         sum += cut(0.5 * level.get(old - front), 1.0 - sum.a);
                         const double kernel = (i % 3 == 1 ? 0.5 : 0.25) * (i / 3 == 1 ? 0.5 : 0.25);
-                        next.at(p) += sum * (kernel * weights[b][fine][std::size_t(old[b])] * weights[c][fine][std::size_t(old[c])] / weight);
+                        next.at(p) += sum * (kernel * weights[b][fine][std::size_t(old[b])] *
+                                             weights[c][fine][std::size_t(old[c])] / weight);
                     }
                 });
                 all[std::size_t(l)][std::size_t(direction)] = level = next;
@@ -160,7 +168,10 @@ struct TreeScene {
     }
 };
 
-double largest(const glm::dvec4& v) { return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::max(std::abs(v.z), std::abs(v.w))); }
+double largest(const glm::dvec4& v)
+{
+    return std::max(std::max(std::abs(v.x), std::abs(v.y)), std::max(std::abs(v.z), std::abs(v.w)));
+}
 
 double copies_differ(const TreeScene::Samples& samples)
 {
@@ -189,7 +200,8 @@ Against against_dense(const TreeScene& scene)
                     result.missing += int(largest(lattice.get(p)) > 0.0);
                     return;
                 }
-                for (const glm::dvec4& copy : found->second) result.error = std::max(result.error, largest(copy - lattice.get(p)));
+                for (const glm::dvec4& copy : found->second)
+                    result.error = std::max(result.error, largest(copy - lattice.get(p)));
             });
         }
     return result;
@@ -246,7 +258,8 @@ TEST(Octree, WallCoversOnceAlongEveryLineAtEveryLevel)
     for (int level = 0; level < scene.tree.depth(); ++level) {
         std::map<std::pair<int, int>, double> sums;
         for (const auto& [key, copies] : scene.samples())
-            if (std::get<0>(key) == level && std::get<1>(key) == 5) sums[{std::get<2>(key), std::get<3>(key)}] += copies[0].a;
+            if (std::get<0>(key) == level && std::get<1>(key) == 5)
+                sums[{std::get<2>(key), std::get<3>(key)}] += copies[0].a;
         EXPECT_EQ(sums.size(), std::size_t((2 << level) + 1) * std::size_t((2 << level) + 1));
         for (const auto& [line, sum] : sums) EXPECT_NEAR(sum, 1.0, 1e-6) << "level " << level;
     }
@@ -292,7 +305,8 @@ TEST(Octree, EveryLevelSendsTheSameLight)
 
 TEST(OctreeBroken, SixNeighboursLeaveSamplesApartAndCutLightOff)
 {
-    const TreeScene whole(plane_and_pieces()), broken(plane_and_pieces(), {6, true}), bare(plane_and_pieces(), {26, false});
+    const TreeScene whole(plane_and_pieces()), broken(plane_and_pieces(), {6, true}),
+        bare(plane_and_pieces(), {26, false});
     EXPECT_EQ(against_dense(whole).missing, 0);
     EXPECT_GT(copies_differ(broken.samples()), 0.05);
     EXPECT_LT(broken.tree.counts().nodes, whole.tree.counts().nodes);
@@ -302,8 +316,9 @@ TEST(OctreeBroken, SixNeighboursLeaveSamplesApartAndCutLightOff)
     RecordProperty("copies_differ", std::to_string(copies_differ(broken.samples())));
 }
 
-// Of a wall in one layer of leaves: the sum is 1/2 on both samples next to it, everywhere. The mean keeps what a node has
-// by itself: the whole in its middle, a half on its edges, a quarter at its corners; and half of it beyond the leaf.
+// Of a wall in one layer of leaves: the sum is 1/2 on both samples next to it, everywhere. The mean keeps what a node
+// has by itself: the whole in its middle, a half on its edges, a quarter at its corners; and half of it beyond the
+// leaf.
 TEST(OctreeBroken, AveragingLosesHalfAtEveryBorder)
 {
     const TreeScene summed(plane()), averaged(plane(), {}, Transfer::average);
@@ -317,6 +332,76 @@ TEST(OctreeBroken, AveragingLosesHalfAtEveryBorder)
             EXPECT_NEAR(wrong.at({3, 5, x, y, 5})[0].a, kept, 1e-6) << x << " " << y;
             EXPECT_NEAR(wrong.at({3, 5, x, y, 6})[0].a, 0.5 * kept, 1e-6) << x << " " << y;
         }
+}
+
+struct PhotonScene {
+    VoxelScene voxels;
+    Octree tree;
+    Photons photons;
+    PhotonScene(const Scene& source, int map_size)
+        : voxels(source, kBounds, kSide), tree(test_gl().shaders), photons(test_gl().shaders)
+    {
+        voxels.average();
+        tree.build(voxels.grid, voxels.faces, {});
+        photons.run(voxels.scene, voxels.grid, voxels.faces, tree, {map_size});
+    }
+};
+
+void add_room(SceneBuilder& b, int material)
+{
+    const float s = kSide - 1;
+    b.quad({0, 0, 0}, {s, 0, 0}, {0, s, 0}, material);  // +z
+    b.quad({0, 0, s}, {0, s, 0}, {s, 0, 0}, material);  // -z
+    b.quad({0, 0, 0}, {0, s, 0}, {0, 0, s}, material);  // +x
+    b.quad({s, 0, 0}, {0, 0, s}, {0, s, 0}, material);  // -x
+    b.quad({0, 0, 0}, {0, 0, s}, {s, 0, 0}, material);  // +y
+    b.quad({0, s, 0}, {s, 0, 0}, {0, 0, s}, material);  // -y
+}
+
+// All that leaves a point light stays in a closed room: 4 pi I, wherever the light is.
+TEST(Photons, ClosedRoomGetsAllOfAPointLight)
+{
+    for (const glm::vec3 place : {glm::vec3(7.3f, 6.1f, 8.8f), glm::vec3(1.2f, 13.4f, 2.7f)}) {
+        SceneBuilder b;
+        add_room(b, b.material(lambert(0.5f)));
+        b.point_light(place, {100.0f, 30.0f, 5.0f});
+        const PhotonScene scene(b.build(), 256);
+        const glm::dvec3 flux = scene.photons.total_flux();
+        EXPECT_NEAR(flux.x, 4.0 * glm::pi<double>() * 100.0, 0.005 * 4.0 * glm::pi<double>() * 100.0);
+        EXPECT_NEAR(flux.y / flux.x, 0.3, 1e-4);
+        EXPECT_NEAR(flux.z / flux.x, 0.05, 1e-4);
+    }
+}
+
+// A directional light gives E0 times the area that it sees; each face in the middle E0 cos.
+TEST(Photons, PlaneGetsWhatItShowsToADirectionalLight)
+{
+    for (const glm::vec3 direction : {glm::vec3(0, 0, -1), glm::normalize(glm::vec3(0.3f, 0.5f, -1.0f))}) {
+        SceneBuilder b;
+        b.quad({0, 0, 5}, {kSide - 1, 0, 0}, {0, kSide - 1, 0}, b.material(lambert(0.5f)));
+        b.directional_light(direction, glm::vec3(3.0f));
+        const PhotonScene scene(b.build(), 512);
+        const double expected = 3.0 * -double(direction.z) * (kSide - 1) * (kSide - 1);
+        EXPECT_NEAR(scene.photons.total_flux().x, expected, 0.005 * expected);
+        const auto irradiance = scene.photons.irradiance().read<glm::vec4>();
+        const auto entries = scene.voxels.faces.face_list().read<GLuint>();
+        for (std::size_t i = 0; i < scene.voxels.faces.face_count(); ++i) {
+            const GLuint x = entries[i] & 511u, y = entries[i] >> 9 & 511u;
+            if (x == 0 || y == 0 || x == kSide - 1 || y == kSide - 1) continue;  // half voxels
+            // About 30 x 30 texels a voxel; a row of them more or less is 3 %.
+            EXPECT_NEAR(double(irradiance[i].x), -3.0 * double(direction.z), 0.08 * 3.0);
+        }
+    }
+}
+
+TEST(Photons, AreTheSameInEveryRun)
+{
+    SceneBuilder b;
+    add_room(b, b.material(lambert(0.5f)));
+    b.point_light({5, 9, 4}, glm::vec3(100.0f));
+    const Scene source = b.build();
+    const PhotonScene first(source, 256), second(source, 256);
+    EXPECT_EQ(first.photons.irradiance().read<glm::vec4>(), second.photons.irradiance().read<glm::vec4>());
 }
 
 }  // namespace

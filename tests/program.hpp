@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -46,11 +47,12 @@ inline std::vector<std::string> chapters()
     return names;
 }
 
-// Whether a chapter, by its name, has a voxel grid and the parameter `voxels`: from 04 on; 19 and 20 have patches instead.
-inline bool has_grid(const std::string& chapter)
+// Whether a chapter has the parameter voxels. 19 and 20 have patches instead.
+inline bool has_voxels(const std::string& chapter)
 {
-    const int number = std::stoi(chapter);
-    return number >= 4 && number != 19 && number != 20;
+    const int number =
+        chapter.size() > 1 && std::isdigit(chapter[0]) && std::isdigit(chapter[1]) ? std::stoi(chapter) : 0;
+    return number >= 4 && number <= 18;
 }
 
 // `arguments` as in a shell.

@@ -42,6 +42,14 @@ void ConservativeVoxelizer::allocate(const VoxelGrid& grid, const VoxelizerParam
         fragment_counts_ = gl::texture_3d("fragment counts", GL_R32UI, size);
 }
 
+void ConservativeVoxelizer::free_scratch(bool occupancy_too)
+{
+    fragments_ = {};
+    room_for_.forget();
+    large_triangles_ = {};
+    if (occupancy_too) occupancy_ = {};
+}
+
 std::vector<gl::Resource> ConservativeVoxelizer::resources() const
 {
     std::vector<gl::Resource> resources = {occupancy_.resource(), fragments_.resource()};

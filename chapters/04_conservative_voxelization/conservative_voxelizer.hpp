@@ -60,6 +60,9 @@ public:
              const std::vector<Range>& triangles, const gl::Buffer& counters, FragmentList& list);
     void forget() { made_from_.forget(); }  // the next run fills them whatever has changed, for measuring
     Revision revision() const { return revision_; }
+    // Frees the fragments, which only chapter 05 needs, and the occupancy where nobody looks into it; the next run makes
+    // them anew.
+    void free_scratch(bool occupancy_too);
 
     // r32ui, grid size: fragments in each voxel. Only with VoxelizerParams::count_fragments.
     const gl::Texture& fragment_counts() const { return fragment_counts_; }

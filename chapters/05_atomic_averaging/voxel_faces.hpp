@@ -83,6 +83,8 @@ public:
     const gl::Buffer& statistics_buffer() const { return *statistics_; }
     const gl::Buffer& face_groups() const { return lists_.face_groups; }
     const gl::Buffer& voxel_groups() const { return lists_.voxel_groups; }
+    // Frees the sums, of which the means are all that the light needs; the next run makes them anew.
+    void free_scratch() { lists_.sums = {}; }
     std::vector<gl::Resource> resources() const;
 
     // kVoxelCounterBinding, kVoxelListBinding, kFaceListBinding, kFaceBinding, kFaceIndexUnit.

@@ -20,8 +20,8 @@ void add_parameters(ParameterTable& table, LitVoxelParams& params);
 
 class LitVoxels {
 public:
-    // `params` must outlive this.
-    LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params);
+    // `params` must outlive this. `storage`: of the pyramid, where params.pyramid.storage > 0.
+    LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params, LightStorage storage = {});
     // Triangles -> occupied voxels -> mean material of their faces; all that follows from them runs when they do.
     void voxelize(App& app, const GpuScene& scene);
     // What the faces reflect of the light that comes straight from the lights.
@@ -40,6 +40,9 @@ public:
         VoxelFaces& faces;
     };
     Parts parts() { return {params_, grid_, voxelizer_, faces_}; }
+    // Frees what only voxelization needs. What it made stays.
+    void free_scratch();
+
     const VoxelGrid& grid() const { return grid_; }
     const ConservativeVoxelizer& voxelizer() const { return voxelizer_; }
     const VoxelFaces& faces() const { return faces_; }
@@ -51,6 +54,8 @@ public:
     std::vector<Count> counts() const;
 
 private:
+    // Whether rays or pixels look into the occupancy; the pyramids of other storages than the atlas know it themselves.
+    bool needs_occupancy() const;
     const LitVoxelParams& params_;
     VoxelGrid grid_;
     ConservativeVoxelizer voxelizer_;

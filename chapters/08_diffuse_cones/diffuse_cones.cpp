@@ -22,6 +22,8 @@ void add_parameters(ParameterTable& table, ConeParams& params)
               "march: how coverages add up");
     table.add("side_weights", params.side_weights, {"projected", "squared"}, "march: of a voxel's sides, |d| or d^2");
     table.add("ao_falloff", params.ao_falloff, 0.0, 100.0, "1/m", "ambient occlusion: 1 / (1 + this * distance)");
+    table.add("range_diffuse", params.range_diffuse, 0.0, 1e6, "m", "how far diffuse cones see; 0: to the bounds");
+    table.add("range_ao", params.range_ao, 0.0, 1e6, "m", "how far ambient occlusion sees; 0: to the bounds");
     table.add("sky", params.sky, 0.0, 1e4, "W/sr/m2", "radiance of what cones see that leave the grid");
 }
 
@@ -30,10 +32,10 @@ void add_parameters(ParameterTable& table, DiffuseConeParams& params)
     table.add_values("gather_scale", params.gather_scale, {1, 2, 4}, "one of so many pixels along a side gathers");
 }
 
-gl::Defines cone_defines(const ConeParams& params, const LightPyramid& pyramid)
+gl::Defines cone_defines(const ConeParams& params, const ConeVolumes& volumes)
 {
-    gl::Defines defines = {{"MARCH", params.walk == ConeWalk::march ? "1" : "0"}};
-    defines.merge(pyramid.defines());
+    gl::Defines defines = volumes.defines();
+    defines["MARCH"] = params.walk == ConeWalk::march ? "1" : "0";
     return defines;
 }
 
@@ -41,6 +43,8 @@ void set_cones(const gl::Program& program, const ConeParams& params)
 {
     program.set("step_factor", params.step);
     program.set("ao_falloff", params.ao_falloff);
+    program.set("range_diffuse", params.range_diffuse);
+    program.set("range_ao", params.range_ao);
     program.set("transmittance_model", int(params.transmittance));
     program.set("squared_weights", params.side_weights == SideWeights::squared);
     program.set("sky_radiance", glm::vec3(params.sky));
@@ -95,6 +99,13 @@ void ConeVolumes::bind() const
     walk.bind();
 }
 
+gl::Defines ConeVolumes::defines() const
+{
+    gl::Defines all = pyramid.defines();
+    all.insert(walk.defines().begin(), walk.defines().end());
+    return all;
+}
+
 DiffuseCones::DiffuseCones(gl::Shaders& shaders, const std::string& folder)
     : points_(shaders),
       gather_(shaders, {"common/fullscreen.vert", folder + "/gather.frag"}),
@@ -108,7 +119,7 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes&
                                      const DiffuseConeParams& params, int sample)
 {
     const auto bind = [&](const gl::Program&) { volumes.bind(); };
-    return run(g_buffer, volumes.grid, bind, cone_defines(cones, volumes.pyramid), directions, cones, params, sample);
+    return run(g_buffer, volumes.grid, bind, cone_defines(cones, volumes), directions, cones, params, sample);
 }
 
 const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const VoxelGrid& grid,

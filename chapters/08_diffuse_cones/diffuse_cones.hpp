@@ -44,14 +44,26 @@ struct ConeParams {
     SideWeights side_weights = SideWeights::projected;
     // Ambient occlusion falls off as 1 / (1 + lambda r), lambda in 1/m, 0 .. 100.
     float ao_falloff = 1.0f;
+    // How far cones that leap see surfaces, for light and for ambient occlusion, in m, 0 .. 1e6; 0: to the bounds. Links of
+    // faces go to the bounds.
+    float range_diffuse = 0.0f, range_ao = 0.0f;
     // Constant radiance of the sky, W/(sr m^2), 0 .. 1e4: what cones see that leave the grid.
     float sky = 0.0f;
     bool operator==(const ConeParams&) const = default;
 };
 void add_parameters(ParameterTable& table, ConeParams& params);
 
+// What cones go through: where they end, and the light there.
+struct ConeVolumes {
+    const VoxelGrid& grid;
+    const LightPyramid& pyramid;
+    const WalkVolume& walk;
+    void bind() const;
+    gl::Defines defines() const;  // for programs that read them
+};
+
 // Defines that programs with cones are compiled with.
-gl::Defines cone_defines(const ConeParams& params, const LightPyramid& pyramid);
+gl::Defines cone_defines(const ConeParams& params, const ConeVolumes& volumes);
 
 // The uniforms of shaders/08_diffuse_cones/cone_common.glsl and march.glsl.
 void set_cones(const gl::Program& program, const ConeParams& params);
@@ -82,14 +94,6 @@ struct DiffuseConeParams {
     bool operator==(const DiffuseConeParams&) const = default;
 };
 void add_parameters(ParameterTable& table, DiffuseConeParams& params);
-
-// What cones go through: where they end, and the light there.
-struct ConeVolumes {
-    const VoxelGrid& grid;
-    const LightPyramid& pyramid;
-    const WalkVolume& walk;
-    void bind() const;
-};
 
 class DiffuseCones {
 public:

@@ -47,11 +47,13 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
         gl::grow(buffer, label, count * bytes_of_face, some ? buffer.bytes() : 0);
     };
     fit(links_, "links", std::size_t(params.links) * sizeof(GLuint));
-    fit(from_emitters_, "from emitters", sizeof(glm::vec4));
+    has_emitters_ = emitters.shine() || emitters.are_apart();
+    if (has_emitters_)
+        fit(from_emitters_, "from emitters", sizeof(glm::vec4));
+    else
+        from_emitters_ = {};
     fit(albedo_, "reflectance of faces", sizeof(GLuint));
-    for (gl::Buffer& buffer : packed_) fit(buffer, "radiance of faces between bounces", sizeof(glm::uvec2));
     gl::grow(reflected_, "reflected by faces", count * sizeof(glm::vec4), reflected_.bytes());
-    has_emitters_ = emitters.shine();
 
     voxels.grid().bind();
     voxels.faces().bind();
@@ -60,7 +62,7 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     gl::Defines defines = {{"MARCH", "0"},
                            {"EMITTERS", emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0"},
                            {"SOME", some ? "1" : "0"}};
-    defines.merge(voxels.pyramid().defines());
+    defines.merge(ConeVolumes{voxels.grid(), voxels.pyramid(), walk}.defines());
     defines.merge(emitters.defines());
     const gl::Program& link = link_.with(defines);
     ConeParams rays = cones;
@@ -89,6 +91,8 @@ bool Bounces::run(const LitVoxels& voxels, const ConeParams& cones, const Bounce
     if (!changed && settled_) return false;
     ++revision_;
     const VoxelFaces& faces = voxels.faces();
+    for (gl::Buffer& buffer : packed_)
+        gl::grow(buffer, "radiance of faces between bounces", faces.face_count() * sizeof(glm::uvec2), 0);
     const bool to_convergence = params.bounces < 0;
     const bool warm = to_convergence && params.warm_start && solved_order_ == faces.order();
     const bool limited = warm && params.bounces_a_frame > 0;

@@ -23,6 +23,9 @@ struct BounceParams {
 void add_parameters(ParameterTable& table, BounceParams& params);
 void add_warm_start(ParameterTable& table, BounceParams& params);
 
+// Light goes from voxel to voxel before cones gather it.
+inline bool goes_round(const BounceParams& params) { return params.bounces < 0 || params.bounces > 1; }
+
 // R(k) = R(0) + rho (mean of R(k - 1) over the links + what emitters send + what the sky sends): R(0) is what chapter 06's
 // faces reflect of direct light. The links depend on the scene alone, so a bounce is one look-up a link (the transport
 // matrix of radiosity, with one entry a link: Cohen & Wallace 1993, section 5.3).
@@ -48,6 +51,12 @@ public:
     bool run(const LitVoxels& voxels, const ConeParams& cones, const BounceParams& params);
     // Whether the last run ended because nothing changed any more, or was asked for so many bounces.
     bool is_settled() const { return settled_; }
+
+    // Frees what only a run needs; the next one makes it anew.
+    void free_scratch()
+    {
+        for (gl::Buffer& buffer : packed_) buffer = {};
+    }
 
     // vec4 a face: W/(sr m^2).
     const gl::Buffer& reflected() const { return reflected_; }

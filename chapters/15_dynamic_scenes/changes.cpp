@@ -12,7 +12,7 @@ void make_change(const ChangeParams& params, App& app, GpuScene& scene, MotionPa
 {
     if (app.frame() == 0) return;
     const float there = app.frame() % 2 == 1 ? 1.0f : -1.0f, step_m = there * 1e-3f * scene.bounds().longest_side();
-    switch (Change(params.change)) {
+    switch (params.change) {
         case Change::nothing:
             break;
         case Change::time:

@@ -9,7 +9,7 @@ namespace conebook {
 enum class Change : int { nothing = 0, time = 1, light = 2, camera = 3, pixels = 4 };
 
 struct ChangeParams {
-    int change = int(Change::nothing);
+    Change change = Change::nothing;
 };
 void add_parameters(ParameterTable& table, ChangeParams& params);
 

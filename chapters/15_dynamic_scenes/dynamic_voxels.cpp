@@ -57,7 +57,7 @@ FaceChange DynamicVoxels::run(App& app, const Scene& source, const GpuScene& sce
     const LitVoxels::Parts parts = voxels.parts();
     params_ = params;
     parts.grid.fit(scene.bounds(), parts.params.grid);
-    if (parts.params.update == int(Update::always)) still_from_.forget();
+    if (parts.params.update == Update::always) still_from_.forget();
 
     // What stands still: voxels and sums, once.
     app.pass("voxelize still", Scope::scene, [&] {
@@ -134,7 +134,7 @@ void DynamicVoxels::put_in(const GpuScene& scene, const LitVoxels::Parts& parts,
     fragments_.bind();
     list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kDynamicVoxelBinding);
     counts_.bind(GL_SHADER_STORAGE_BUFFER, shared::kDynamicCountBinding);
-    const gl::Program& collect = collect_.with({{"DROP", params_.overlap == int(Overlap::drop) ? "1" : "0"}});
+    const gl::Program& collect = collect_.with({{"DROP", params_.overlap == Overlap::drop ? "1" : "0"}});
     collect.use();
     for (const shared::FragmentRange& range : fragments_.ranges()) {
         collect.set("first_fragment", range.begin);

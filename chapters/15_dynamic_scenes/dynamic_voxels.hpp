@@ -12,7 +12,7 @@ namespace conebook {
 enum class Overlap : int { merge = 0, drop = 1 };
 
 struct DynamicVoxelParams {
-    int overlap = int(Overlap::merge);
+    Overlap overlap = Overlap::merge;
     bool operator==(const DynamicVoxelParams&) const = default;
 };
 void add_parameters(ParameterTable& table, DynamicVoxelParams& params);

@@ -9,11 +9,11 @@ enum class Transfer : int { sum = 0, average = 1 };
 enum class BrickFormat : int { rgba16f = 0, rgba32f = 1 };
 
 struct BrickParams {
-    // What two bricks do with a sample that they share: sum is right; average, as published, leaves a wall 0.5, 0.25 and
-    // 0.125 of its coverage in the middles, on edges and at corners.
-    int transfer = int(Transfer::sum);
+    // What two bricks do with a sample that they share: sum is right; average, as published, leaves a wall 0.5, 0.25
+    // and 0.125 of its coverage in the middles, on edges and at corners.
+    Transfer transfer = Transfer::sum;
     // rgba16f: 216 bytes a brick; rgba32f: twice that, for tests.
-    int brick_format = int(BrickFormat::rgba16f);
+    BrickFormat brick_format = BrickFormat::rgba16f;
     bool operator==(const BrickParams&) const = default;
 };
 void add_parameters(ParameterTable& table, BrickParams& params);
@@ -23,8 +23,8 @@ public:
     explicit BrickPool(gl::Shaders& shaders);
 
     // Fills the bricks of all levels from what the faces reflect (vec4 a face: rgb in W/(sr m^2), of that revision) and
-    // emit, if any of that has changed, and says whether it did. Throws std::runtime_error when there are more bricks than
-    // the driver's textures hold.
+    // emit, if any of that has changed, and says whether it did. Throws std::runtime_error when there are more bricks
+    // than the driver's textures hold.
     bool fill(const VoxelGrid& grid, const VoxelFaces& faces, const Octree& tree, const gl::Buffer& reflected,
               Revision reflected_revision, const BrickParams& params);
     void forget() { made_from_.forget(); }
@@ -43,7 +43,7 @@ private:
     gl::Program unit_;
     gl::Texture pool_;
     gl::Buffer weights_, scale_;
-    MadeFrom<Revision, BrickFormat> allocated_for_;  // tree
+    MadeFrom<Revision, BrickFormat> allocated_for_;                // tree
     MadeFrom<Revision, GLuint, Revision, BrickParams> made_from_;  // tree, what the faces reflect
     Revision revision_ = 0;
 };

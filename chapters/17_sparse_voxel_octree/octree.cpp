@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <stdexcept>
 
 namespace conebook {
 
@@ -29,6 +30,7 @@ Octree::Octree(gl::Shaders& shaders)
     dilate_ = load("dilate.comp");
     place_bricks_ = load("place_bricks.comp");
     list_bricks_ = load("list_bricks.comp");
+    list_faces_ = load("list_faces.comp");
 }
 
 namespace {
@@ -138,15 +140,16 @@ bool Octree::build(const VoxelGrid& grid, const VoxelFaces& faces, const OctreeP
     depth_ = int(std::bit_width(side - 1));
     // A flat wall has a leaf with geometry for every four voxels, and three times that with its border; all levels
     // together are 4/3 of the leaves, so about a node a voxel. Scattered voxels have up to 27.
-    constexpr std::size_t kLeast = 4096;
-    std::size_t capacity = kLeast + 2 * faces.voxel_count();
+    constexpr std::size_t kLeast = 4096, kMostIndex = 1u << 26;
+    const std::size_t most = std::min(gl::most_storage_bytes() / (8 * sizeof(GLuint)), kMostIndex - 1);
+    std::size_t capacity = std::min(kLeast + 2 * faces.voxel_count(), most);
     for (;;) {
-        gl::require_storage("nodes", capacity, 8 * sizeof(GLuint), "a smaller --set voxels=");
-        if (capacity >= (1u << 26))
-            throw std::runtime_error("the octree has more than 2^26 nodes; use a smaller --set voxels=");
         grow(grid, faces, params, GLuint(capacity));
         if (counts_.wanted <= counts_.capacity) break;
-        capacity = std::max<std::size_t>(2 * capacity, counts_.wanted);
+        if (capacity == most)
+            throw std::runtime_error("the octree has more than " + std::to_string(most) +
+                                     " nodes, the most that a storage block holds; use a smaller --set voxels=");
+        capacity = std::min(std::max<std::size_t>(2 * capacity, counts_.wanted), most);
     }
     if (counts_.bricks >= (1u << 26))
         throw std::runtime_error("the octree has more than 2^26 bricks; use a smaller --set voxels=");
@@ -164,8 +167,25 @@ bool Octree::build(const VoxelGrid& grid, const VoxelFaces& faces, const OctreeP
     brick_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kBrickListBinding);
     list_bricks_.use();
     gl::dispatch_items(counts_.nodes, 64);
+
+    // From a leaf's voxels to their faces.
+    const shared::TreeLevel& leaves = level(depth_ - 1);
+    const GLuint leaf_count = leaves.geometry_end - leaves.begin;
+    leaf_faces_ = gl::Buffer("faces of leaves", leaf_count * 8 * sizeof(GLuint));
+    places_.bind(GL_SHADER_STORAGE_BUFFER, shared::kNodePlaceBinding);
+    faces.face_index().bind(shared::kFaceIndexUnit);
+    bind_leaf_faces(list_faces_);
+    list_faces_.use();
+    gl::dispatch_items(leaf_count, 64);
     wait_for_writes();
     return true;
+}
+
+void Octree::bind_leaf_faces(const gl::Program& program) const
+{
+    leaf_faces_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLeafFaceBinding);
+    program.set("leaf_begin", level(depth_ - 1).begin);
+    program.set("leaf_end", level(depth_ - 1).geometry_end);
 }
 
 void Octree::bind(const gl::Program& program) const
@@ -177,7 +197,7 @@ void Octree::bind(const gl::Program& program) const
 
 std::vector<gl::Resource> Octree::resources() const
 {
-    return {nodes_.resource(), places_.resource(), bricks_.resource(), brick_list_.resource()};
+    return {nodes_.resource(), places_.resource(), bricks_.resource(), brick_list_.resource(), leaf_faces_.resource()};
 }
 
 }  // namespace conebook

@@ -18,6 +18,11 @@ std::vector<Material> drawn_materials(const Scene& scene)
 }
 
 bool has_specular_lobe(const Material& m) { return !m.unlit && (m.metallic > 0.0f || m.specular > 0.0f); }
+bool has_diffuse_lobe(const Material& m)
+{
+    const bool metal = m.metallic >= 1.0f && !m.metallic_roughness_texture.present();
+    return !m.unlit && !metal && glm::vec3(m.base_color) != glm::vec3(0.0f);
+}
 
 // "3 of 8 materials ...", or "no material ...".
 template <typename Has>
@@ -65,6 +70,18 @@ bool has_specular_surfaces(const Scene& scene)
 {
     const std::vector<Material> materials = drawn_materials(scene);
     return std::any_of(materials.begin(), materials.end(), has_specular_lobe);
+}
+
+bool has_diffuse_surfaces(const Scene& scene)
+{
+    const std::vector<Material> materials = drawn_materials(scene);
+    return std::any_of(materials.begin(), materials.end(), has_diffuse_lobe);
+}
+
+bool has_emission(const Scene& scene)
+{
+    const std::vector<Material> materials = drawn_materials(scene);
+    return std::any_of(materials.begin(), materials.end(), std::mem_fn(&Material::shines));
 }
 
 Need specular_cone_need(const Scene& scene)

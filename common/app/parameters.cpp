@@ -171,11 +171,7 @@ void ParameterTable::add_choice(const std::string& name, std::function<int()> ch
 void ParameterTable::add(const std::string& name, std::string& field, std::function<void(const std::string&)> check,
                          const std::string& help)
 {
-    Parameter parameter{name, "", help};
-    parameter.as_text = &field;
-    parameter.default_text = field;
-    parameter.check = std::move(check);
-    insert(std::move(parameter));
+    insert({.name = name, .help = help, .as_text = &field, .default_text = field, .check = std::move(check)});
 }
 
 void ParameterTable::set(const std::string& assignment)

@@ -14,13 +14,13 @@ struct Parameter {
     float* as_float = nullptr;  // one of these three is set, or as_text, or the two functions of an enumeration
     int* as_int = nullptr;
     bool* as_bool = nullptr;
+    std::string* as_text = nullptr;  // it has no number, so that value() and default_value are 0
     std::function<int()> choice{};
     std::function<void(int)> choose{};
     std::vector<std::string> choices{};  // an enumeration's values by name, 0, 1, 2, ...
     std::vector<int> values{};           // with as_int: the only ones allowed, if any
     double default_value = 0.0;
-    std::string* as_text = nullptr;       // a text: it has no number, so that of value() and default_value is 0
-    std::string default_text{};           // "none" stands for an empty one wherever it is written
+    std::string default_text{};  // "none" stands for an empty one wherever it is written
     std::function<void(const std::string&)> check{};  // of a text: throws std::runtime_error with what is wrong with it
     double value() const;
     void set(double value) const;  // into the field; must be one of those allowed

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -99,6 +100,25 @@ GLuint make_sampler(const TextureSlot& slot)
 
 }  // namespace
 
+// snippet: is_outside
+bool is_outside(const Bounds& box, const glm::mat4& clip_from_scene)
+{
+    // The sides are sums and differences of the rows (Gribb & Hartmann 2001): -w <= x, y <= w and 0 <= z <= w.
+    const glm::dmat4 rows(glm::transpose(clip_from_scene));
+    for (const glm::dvec4& side :
+         {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[2], rows[3] - rows[2]}) {
+        bool beyond = true;
+        for (int i = 0; i < 8 && beyond; ++i) {
+            const glm::dvec4 corner(glm::dvec3(box.corner(i)), 1.0);
+            constexpr double kRounding = 1e-5;  // of a sum of four floats, and more
+            beyond = glm::dot(side, corner) < -kRounding * glm::dot(glm::abs(side), glm::abs(corner));
+        }
+        if (beyond) return true;
+    }
+    return false;
+}
+// end snippet
+
 shared::LightData light_data(const Light& light)
 {
     // KHR_lights_punctual, "Inner and Outer Cone Angles": attenuation = saturate(cos * scale + offset)^2.
@@ -143,6 +163,17 @@ shared::CameraData moved(const shared::CameraData& camera, glm::vec2 pixels)
 }
 
 namespace {
+std::optional<Bounds> bounds_of(const Scene& scene, const Draw& draw)
+{
+    if (draw.index_count == 0) return {};
+    Bounds box{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
+    for (std::uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; ++i) {
+        box.min = glm::min(box.min, scene.vertices[scene.indices[i]].position);
+        box.max = glm::max(box.max, scene.vertices[scene.indices[i]].position);
+    }
+    return box;
+}
+
 gl::Buffer light_buffer(const std::vector<Light>& lights)
 {
     std::vector<shared::LightData> data;
@@ -277,6 +308,7 @@ void GpuScene::move(const Scene& scene, std::size_t index)
     std::set<int> materials;
     for (std::uint32_t d = node.draws.first; d < node.draws.end(); ++d) {
         draw_uses_[d] = use_of(scene, draws_[d]);
+        if (boxes_[d]) boxes_[d] = bounds_of(scene, draws_[d]);
         materials.insert(draws_[d].material);
     }
     for (const int material : materials) {  // in the order in which they were summed first
@@ -296,6 +328,12 @@ void GpuScene::set_material(const Scene& scene, std::size_t material)
 
 void GpuScene::find_dynamic(const Scene& scene)
 {
+    std::vector<bool> moves(draws_.size(), false);
+    for (const Node& node : scene.nodes)
+        for (std::uint32_t d = node.draws.first; d < node.draws.end() && node.dynamic; ++d) moves[d] = true;
+    boxes_.assign(draws_.size(), {});
+    for (std::size_t d = 0; d < draws_.size(); ++d)
+        if (!moves[d]) boxes_[d] = bounds_of(scene, draws_[d]);
     may_move_ = std::any_of(scene.nodes.begin(), scene.nodes.end(),
                             [](const Node& node) { return node.dynamic && node.vertices.count > 0; });
 }
@@ -332,14 +370,18 @@ void unbind_samplers()
 }
 }  // namespace
 
-void GpuScene::draw(const gl::Program& program, Culling culling) const
+std::size_t GpuScene::draw(const gl::Program& program, Culling culling, const glm::mat4* clip_from_scene) const
 {
+    std::size_t drawn = 0;
     program.use();
     bind_lights(program);
     glBindVertexArray(vertex_array_.id());
     glCullFace(GL_BACK);
     int bound_material = -1;
-    for (const Draw& draw : draws_) {
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+        const Draw& draw = draws_[i];
+        if (clip_from_scene != nullptr && boxes_[i] && is_outside(*boxes_[i], *clip_from_scene)) continue;
+        ++drawn;
         if (draw.material != bound_material) {
             bound_material = draw.material;
             bind_material(std::size_t(draw.material));
@@ -352,6 +394,7 @@ void GpuScene::draw(const gl::Program& program, Culling culling) const
     }
     glDisable(GL_CULL_FACE);
     unbind_samplers();
+    return drawn;
 }
 
 void GpuScene::draw_geometry(const gl::Program& program, Range triangles) const

@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "common/bindings.glsl"
@@ -38,7 +39,10 @@ public:
     // Bind buffers (kLightBinding) and draw every triangle with `program`, material by material: kMaterialBlock,
     // textures on units 0..6 (kBaseColorSlot ... kCoverageUnit).
     // Vertex attributes: 0 position, 1 normal, 2 tangent, 3 uv0, 4 uv1, 5 colour (see Vertex).
-    void draw(const gl::Program& program, Culling culling) const;
+    // With `clip_from_scene`, what lies as a whole outside of what that matrix shows is left out, draw by draw. Gives
+    // the number of draws.
+    std::size_t draw(const gl::Program& program, Culling culling, const glm::mat4* clip_from_scene = nullptr) const;
+    std::size_t draw_count() const { return draws_.size(); }
 
     // Draw these triangles at once, without materials: uniform uint first_triangle + gl_PrimitiveID is a triangle's number.
     void draw_geometry(const gl::Program& program, Range triangles) const;
@@ -101,6 +105,7 @@ private:
     bool has_emission_ = false, may_move_ = false;
     std::vector<Light> lights_;
     std::vector<Draw> draws_;
+    std::vector<std::optional<Bounds>> boxes_;  // of each draw's triangles; none for what may move
     std::vector<Material> materials_;
     std::vector<MaterialUse> draw_uses_, material_uses_;  // of each draw, of each material
     gl::Buffer vertex_buffer_, index_buffer_, triangle_material_buffer_, material_buffer_, light_buffer_;
@@ -121,6 +126,10 @@ private:
     std::vector<std::array<BoundTexture, shared::kCoverageUnit + 1>> bindings_;  // by material
     gl::Texture white_;
 };
+
+// Whether all of a box is beyond one of the six sides of what a matrix shows, depth 0 .. 1. A box that touches a side, to
+// within what the floats of a vertex shader leave open, is not.
+bool is_outside(const Bounds& box, const glm::mat4& clip_from_scene);
 
 // Matrices of a camera for a picture of `size` pixels. Depth is reversed and spread over what the camera can see of
 // `content`, the bounds of all that is drawn.

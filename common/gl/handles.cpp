@@ -41,6 +41,7 @@ FormatInfo format_info(GLenum internal_format)
         {GL_RGBA32UI, 16, GL_RGBA_INTEGER, GL_UNSIGNED_INT},
         {GL_R8UI, 1, GL_RED_INTEGER, GL_UNSIGNED_INT},
         {GL_R32UI, 4, GL_RED_INTEGER, GL_UNSIGNED_INT},
+        {GL_RG32UI, 8, GL_RG_INTEGER, GL_UNSIGNED_INT},
         {GL_DEPTH_COMPONENT32F, 4, GL_DEPTH_COMPONENT, GL_FLOAT},
     };
     for (const FormatInfo& info : table)

@@ -1,5 +1,5 @@
-// main() of the programs that upsample: from points to pixels. The four points around a pixel, each by its bilinear weight
-// where it lies on the pixel's surface. A pixel that none of them fits gathers for itself.
+// main() of the programs that upsample: from points to pixels. The four points around a pixel, each by its bilinear
+// weight where it lies on the pixel's surface. A pixel that none of them fits gathers for itself.
 #include "common/g_buffer.glsl"
 #include "08_diffuse_cones/gather.glsl"
 #include "08_diffuse_cones/points.glsl"

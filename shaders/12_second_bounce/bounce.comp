@@ -8,7 +8,9 @@
 
 layout(std430, binding = kRadianceBinding) readonly buffer DirectBuffer { vec4 direct[]; };          // reflected of direct light: R(0)
 layout(std430, binding = kLinkBinding) readonly buffer LinkBuffer { uint links[]; };
+#if EMITTERS
 layout(std430, binding = kFromEmittersBinding) readonly buffer EmittedBuffer { vec4 from_emitters[]; };  // E / pi
+#endif
 layout(std430, binding = kAlbedoBinding) readonly buffer AlbedoBuffer { uint albedo[]; };
 #if WARM
 layout(std430, binding = kRadianceBeforeBinding) readonly buffer BeforeBuffer { vec4 before[]; };         // of the last run

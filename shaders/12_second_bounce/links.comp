@@ -16,7 +16,9 @@ layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
 layout(std430, binding = kLinkBinding) buffer LinkBuffer { uint links[]; };
+#if EMITTERS
 layout(std430, binding = kFromEmittersBinding) writeonly buffer EmittedBuffer { vec4 from_emitters[]; };  // E / pi
+#endif
 layout(std430, binding = kAlbedoBinding) writeonly buffer AlbedoBuffer { uint albedo[]; };
 
 // A number in 0..1 that looks random (PCG: Jarzynski & Olano 2020).
@@ -130,6 +132,8 @@ void main()
         emitted = unshadowed_light(position, normal) * arriving_share(samples.arriving, samples.unshadowed);
     }
 #endif
+#if EMITTERS
     from_emitters[place] = vec4(emitted, 0.0);
+#endif
     albedo[place] = pack_albedo(face.albedo_area.rgb);
 }

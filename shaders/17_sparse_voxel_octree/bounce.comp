@@ -1,6 +1,6 @@
 #version 450 core
-// One bounce: every occupied face gathers through the tree as a pixel does, R(k) = R(0) + rho E(k - 1) / pi, and what it
-// reflects then goes into the bricks again. One thread a face. MEASURE 1: keep the largest change.
+// One bounce: every occupied face gathers through the tree as a pixel does, R(k) = R(0) + rho E(k - 1) / pi, and what
+// it reflects then goes into the bricks again. One thread a face. MEASURE 1: keep the largest change.
 #include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 #include "17_sparse_voxel_octree/cone.glsl"
@@ -8,10 +8,10 @@
 
 layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
-layout(std430, binding = kRadianceBinding) readonly buffer DirectBuffer { vec4 direct[]; };               // R(0)
-layout(std430, binding = kReflectedBinding) buffer ReflectedBuffer { vec4 reflected[]; };                // R(k - 1), R(k)
-#if MEASURE
-layout(std430, binding = kTreeChangeBinding) buffer ChangeBuffer { uint largest_change, largest_radiance; };  // float bits
+layout(std430, binding = kRadianceBinding) readonly buffer DirectBuffer { vec4 direct[]; };  // R(0)
+layout(std430, binding = kReflectedBinding) buffer ReflectedBuffer { vec4 reflected[]; };        // R(k - 1), R(k)
+#if MEASURE  // bits of floats, which have their order
+layout(std430, binding = kTreeChangeBinding) buffer ChangeBuffer { uint largest_change, largest_radiance; };
 #endif
 
 // A white of 1 would never settle: chapter 12.

@@ -9,7 +9,8 @@ layout(rgba16f, binding = 0) uniform image3D pool;
 layout(rgba32f, binding = 0) uniform image3D pool;
 #endif
 layout(std430, binding = kNodePlaceBinding) readonly buffer PlaceBuffer { uint node_places[]; };
-layout(std430, binding = kBrickListBinding) readonly buffer BrickListBuffer { uint brick_list[]; };  // node << 3 | direction
+// node << 3 | direction
+layout(std430, binding = kBrickListBinding) readonly buffer BrickListBuffer { uint brick_list[]; };
 // How much of what a sample stands for lies within the scene's bounds, along each axis: see weight_of().
 layout(std430, binding = kTreeWeightBinding) readonly buffer WeightBuffer { float weights[]; };
 uniform int level;

@@ -3,7 +3,8 @@
 // sends light, in a row. Texels as in chapter 07: a coverage A, rgb A L in units of light_scale.
 #include "17_sparse_voxel_octree/octree.glsl"
 
-layout(std430, binding = kNodeBrickBinding) readonly buffer NodeBrickBuffer { uint node_bricks[]; };  // first << 6 | directions
+// first << 6 | directions
+layout(std430, binding = kNodeBrickBinding) readonly buffer NodeBrickBuffer { uint node_bricks[]; };
 
 const uint kNoBrick = 0xffffffffu;
 

@@ -1,13 +1,14 @@
-// A cone through the octree: it descends to the nodes whose samples are as far apart as it is wide, samples their bricks
-// step by step, and passes what the tree does not have in one step.
+// A cone through the octree: it descends to the nodes whose samples are as far apart as it is wide, samples their
+// bricks step by step, and passes what the tree does not have in one step.
 #define OWN_TRACE_CONE
 #include "17_sparse_voxel_octree/tree_light.glsl"
 #include "08_diffuse_cones/walk.glsl"
 
 uniform float step_factor;  // step over the spacing of the samples
 
-// What chapter 08 asks of the voxel in which a cone starts: how much of a sheet it holds, that is, of a surface that looks
-// the other way. Blurred, a sheet in this voxel has 1/2 in its middle, one in the next voxel behind has 1/4 there.
+// What chapter 08 asks of the voxel in which a cone starts: how much of a sheet it holds, that is, of a surface that
+// looks the other way. Blurred, a sheet in this voxel has 1/2 in its middle, one in the next voxel behind has 1/4
+// there.
 float coverage_at(int face, vec3 voxel_middle, int level)
 {
     TreeCell cell = descend(voxel_middle, tree_depth - 1);
@@ -54,8 +55,9 @@ ConeStep cone_step(TreeRay ray, RayStart start, float own_end, float tan_half, f
     if (in_own_blur) {
         // The surface that the cone leaves shows it nothing: chapter 08.
         vec3 met = vec3(light.x.a, light.y.a, light.z.a);
-        vec3 leaving = vec3(sample_brick(cell, ray.faces.x ^ 1, position).a, sample_brick(cell, ray.faces.y ^ 1, position).a,
-                            sample_brick(cell, ray.faces.z ^ 1, position).a);
+        ivec3 behind = ray.faces ^ 1;
+        vec3 leaving = vec3(sample_brick(cell, behind.x, position).a, sample_brick(cell, behind.y, position).a,
+                            sample_brick(cell, behind.z, position).a);
         vec3 kept = coverage_above(ray.direction, met, leaving, 1.0 / 2048.0, start, s.middle) / max(met, vec3(1e-6));
         light.x *= kept.x;
         light.y *= kept.y;

@@ -1,6 +1,6 @@
 #version 450 core
-// A level of the tree, step 2: how many children the nodes of a block are to get, or how many bricks its nodes have. One
-// thread a block. BRICKS 0 or 1.
+// A level of the tree, step 2: how many children the nodes of a block are to get, or how many bricks its nodes have.
+// One thread a block. BRICKS 0 or 1.
 #include "17_sparse_voxel_octree/blocks.glsl"
 
 void main()

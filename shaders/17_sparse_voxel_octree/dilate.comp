@@ -1,6 +1,6 @@
 #version 450 core
-// Which of the six directions a node has bricks for: those of its own voxels and of its neighbours', whose samples reach
-// it. One thread a node with geometry.
+// Which of the six directions a node has bricks for: those of its own voxels and of its neighbours', whose samples
+// reach it. One thread a node with geometry.
 #include "17_sparse_voxel_octree/build.glsl"
 
 void main()

@@ -1,9 +1,9 @@
 #version 450 core
 // A level's bricks from those of the level below. Samples are twice as far apart now. Across the direction a new one is
-// the mean (1/4, 1/2, 1/4) of three old ones, of which a node has (1/4, 1/4), (1/4, 1/2, 1/4) and (1/4, 1/4): the border
-// transfer adds the rest. Along the direction (1/2, 1, 1/2): surfaces behind each other cover together, the front one
-// first and each no more than what is still open, as in chapter 07; here neighbours are read, for what is in front
-// decides what is left for those behind. One thread a brick.
+// the mean (1/4, 1/2, 1/4) of three old ones, of which a node has (1/4, 1/4), (1/4, 1/2, 1/4) and (1/4, 1/4): the
+// border transfer adds the rest. Along the direction (1/2, 1, 1/2): surfaces behind each other cover together, the
+// front one first and each no more than what is still open, as in chapter 07; here neighbours are read, for what is
+// in front decides what is left for those behind. One thread a brick.
 #include "17_sparse_voxel_octree/brick_data.glsl"
 
 int direction = 0, axis = 0, across_b = 0, across_c = 0;

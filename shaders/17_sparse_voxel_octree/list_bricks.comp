@@ -2,7 +2,8 @@
 // The way back from a brick to its node and direction. One thread a node.
 #include "17_sparse_voxel_octree/build.glsl"
 
-layout(std430, binding = kBrickListBinding) writeonly buffer BrickListBuffer { uint brick_list[]; };  // node << 3 | direction
+// node << 3 | direction
+layout(std430, binding = kBrickListBinding) writeonly buffer BrickListBuffer { uint brick_list[]; };
 
 void main()
 {

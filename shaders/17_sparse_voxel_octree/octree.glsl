@@ -1,8 +1,8 @@
 // The octree: the one place that knows how its nodes are stored.
 //
-// A node is eight words: child x + 2 y + 4 z, 0 where there is none, for node 0 is the root and nobody's child. The root
-// is 2^tree_depth voxels wide, begins where the grid begins, and is level 0; a leaf, level tree_depth - 1, covers 2^3
-// voxels. Define TREE_ACCESS as nothing before, where nodes are written.
+// A node is eight words: child x + 2 y + 4 z, 0 where there is none, for node 0 is the root and nobody's child. The
+// root is 2^tree_depth voxels wide, begins where the grid begins, and is level 0; a leaf, level tree_depth - 1,
+// covers 2^3 voxels. Define TREE_ACCESS as nothing before, where nodes are written.
 #include "common/bindings.glsl"
 #include "17_sparse_voxel_octree/octree_structs.glsl"
 

@@ -47,7 +47,8 @@ void main()
         tree.levels[level + 1].geometry_groups = groups_of(end - begin);
 #endif
         tree.levels[level + 1].end = end;
-        tree.levels[level + 1].block_groups = groups_of((end - tree.levels[level + 1].begin + per_block - 1u) / per_block);
+        uint nodes_of_level = end - tree.levels[level + 1].begin;
+        tree.levels[level + 1].block_groups = groups_of((nodes_of_level + per_block - 1u) / per_block);
         // end snippet
 #endif
     }

@@ -1,25 +1,22 @@
 #version 450 core
-// The leaves' bricks: the up to 8 voxels of a leaf are spread over its 27 samples, along each axis (1/2, 0), (1/2, 1/2),
-// (0, 1/2) of the two. What lies in neighbours is missing; the border transfer adds it.
+// The leaves' bricks: the up to 8 voxels of a leaf are spread over its 27 samples, along each axis (1/2, 0), (1/2,
+// 1/2), (0, 1/2) of the two. What lies in neighbours is missing; the border transfer adds it.
 #include "17_sparse_voxel_octree/brick_data.glsl"
-#include "05_atomic_averaging/face_index.glsl"
+#include "17_sparse_voxel_octree/leaf_faces.glsl"
 #include "07_anisotropic_mips/projected_area.glsl"
 #include "07_anisotropic_mips/column_weight.glsl"
 
-layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
 layout(std430, binding = kRadianceBinding) readonly buffer RadianceBuffer { vec4 face_radiance[]; };
 layout(std140, binding = kPyramidBlock) uniform PyramidBlock { float light_scale; };  // W/(sr m^2)
-uniform uint geometry_end;  // nodes from here on hold nothing
 uniform vec2 part;          // of what is reflected and of what is emitted: 1 or 0
 
 // As chapter 07's finest level: the faces' radiance, each by its area projected on the axis, over the voxel's
 // cross-section within the bounds.
-vec4 voxel_light(ivec3 voxel, int direction)
+vec4 voxel_light(uint leaf, ivec3 voxel, int direction)
 {
     vec4 sum = vec4(0.0);
-    if (any(greaterThanEqual(voxel, grid.size.xyz))) return sum;
-    uint entry = texelFetch(face_index, voxel, 0).r;
+    uint entry = leaf_entry(leaf, voxel);
     for (uint i = entry >> 6; i < (entry >> 6) + uint(bitCount(face_mask(entry))); ++i)
         sum += projected_area(faces[i], direction) *
                vec4(part.x * face_radiance[i].rgb + part.y * faces[i].emission.rgb, 1.0);
@@ -38,8 +35,7 @@ void main()
     for (int i = 0; i < 8; ++i) {
         ivec3 voxel = corner + ivec3(i & 1, i >> 1 & 1, i >> 2);
         // Across the direction a voxel counts by what of it lies within the bounds.
-        light[i] = node < geometry_end ? voxel_light(voxel, direction) : vec4(0.0);
-        light[i] *= weight_of(-1, b, voxel[b]) * weight_of(-1, c, voxel[c]);
+        light[i] = voxel_light(node, voxel, direction) * weight_of(-1, b, voxel[b]) * weight_of(-1, c, voxel[c]);
     }
     // snippet: spread
     for (int sampled = 0; sampled < 27; ++sampled) {

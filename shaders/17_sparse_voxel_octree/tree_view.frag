@@ -1,8 +1,15 @@
 #version 450 core
 // The nodes of a level, or the samples of their bricks, as the camera's ray meets them.
-// SHOW 0: nodes, those with geometry as cubes, border nodes as wires; 1: samples as cubes round their places.
+// SHOW 0: nodes, those with geometry as cubes, border nodes as wires; 1: samples as cubes round their places; 2:
+// voxels of the leaves, of their faces the one that looks most towards the camera.
 #include "common/camera_ray.glsl"
 #include "17_sparse_voxel_octree/tree_light.glsl"
+#if SHOW == 2
+#include "17_sparse_voxel_octree/leaf_faces.glsl"
+layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
+layout(std430, binding = kRadianceBinding) readonly buffer ShownBuffer { vec4 shown_of_faces[]; };
+uniform bool with_emission;
+#endif
 
 uniform int level;
 uniform uint geometry_end;      // nodes of the level from here on are empty
@@ -41,12 +48,13 @@ bool shows(TreeCell cell, vec3 position, vec3 ray, out vec3 shown)
     vec3 q = (position - cell.corner) / cell.side, to_edge = min(q, 1.0 - q);
     to_edge[axis] = 1.0;
     bool edge = min(to_edge.x, min(to_edge.y, to_edge.z)) < kWire, has_geometry = cell.node < geometry_end;
-    shown = chosen == 0 ? vec3(1.0, 0.25, 0.05) : chosen > 0 ? vec3(0.1, 0.35, 1.0) : has_geometry ? vec3(0.6) : vec3(0.15, 0.5, 0.3);
+    shown = has_geometry ? vec3(0.6) : vec3(0.15, 0.5, 0.3);
+    if (chosen >= 0) shown = chosen == 0 ? vec3(1.0, 0.25, 0.05) : vec3(0.1, 0.35, 1.0);
     if (edge) shown *= 0.4;
     shown *= towards_camera(on_axis(axis), ray);
     return edge || has_geometry || chosen >= 0;
 }
-#else
+#elif SHOW == 1
 bool shows(TreeCell cell, vec3 position, vec3 ray, out vec3 shown)
 {
     float spacing = 0.5 * cell.side;
@@ -61,6 +69,21 @@ bool shows(TreeCell cell, vec3 position, vec3 ray, out vec3 shown)
     shown = quantity == 1 ? light.aaa : light_scale * light.rgb / light.a;
     return true;
 }
+#else
+bool shows(TreeCell cell, vec3 position, vec3 ray, out vec3 shown)
+{
+    ivec3 voxel = ivec3(cell.corner) + ivec3(clamp(floor(position + 1e-3 * sign(ray) - cell.corner), 0.0, 1.0));
+    uint entry = leaf_entry(cell.node, voxel);
+    float best = -2.0;
+    shown = vec3(0.0);
+    for (uint i = entry >> 6; i < (entry >> 6) + uint(bitCount(face_mask(entry))); ++i) {
+        float towards = -dot(faces[i].normal.xyz, ray);
+        if (towards <= best) continue;
+        best = towards;
+        shown = shown_of_faces[i].rgb + (with_emission ? faces[i].emission.rgb : vec3(0.0));
+    }
+    return best > -2.0;
+}
 #endif
 
 void main()
@@ -70,15 +93,16 @@ void main()
     vec3 enters = (step(ray.direction, vec3(0.0)) * float(1 << tree_depth) - ray.origin) * ray.inverse;
     float t = max(max(enters.x, max(enters.y, enters.z)), 0.0);
     color = vec4(0.0);
-    // Both the cells of the tree and, in them, those round the samples, which lie half a spacing aside.
+    // Both the cells of the tree and, in them, those of the voxels or round the samples, half a spacing aside.
     while (t < ray.exit) {
         vec3 position = ray.nudge + ray.direction * t;
         TreeCell cell = descend(position, level);
         float end = leaves_cell(ray, cell);
         if (cell.node != kNoNode) {
-#if SHOW == 1
+#if SHOW > 0
+            const float kShift = SHOW == 1 ? 0.5 : 0.0;  // samples lie on corners, voxels between them
             TreeCell near = TreeCell(cell.node, level, vec3(0.0), 0.5 * cell.side);
-            near.corner = (floor((position - cell.corner) / near.side + 0.5) - 0.5) * near.side + cell.corner;
+            near.corner = (floor((position - cell.corner) / near.side + kShift) - kShift) * near.side + cell.corner;
             end = min(end, leaves_cell(ray, near));
 #endif
             vec3 shown;

@@ -67,6 +67,11 @@ CONEBOOK_CONSTANT int kAlbedoBinding = 7;
 // 15
 CONEBOOK_CONSTANT int kDynamicVoxelBinding = 1;
 CONEBOOK_CONSTANT int kDynamicCountBinding = 3;
+// 16
+CONEBOOK_CONSTANT int kBrickVoxelBinding = 0;
+CONEBOOK_CONSTANT int kBrickTotalBinding = 1;
+CONEBOOK_CONSTANT int kBrickBinding = 3;
+
 // 17: node, node brick and brick list keep their numbers; the rest is for building.
 CONEBOOK_CONSTANT int kNodeBinding = 4;
 CONEBOOK_CONSTANT int kNodeBrickBinding = 6;

@@ -82,7 +82,7 @@ Case parse_case(const std::string& line)
         parsed.arguments += " '" + absolute_argument(word) + "'";
     }
     if (!has_size) parsed.arguments += " --size 256x256";
-    if (has_grid(parsed.program) && !has_voxels) parsed.arguments += " --set voxels=64";
+    if (conebook::has_voxels(parsed.program) && !has_voxels) parsed.arguments += " --set voxels=64";
     return parsed;
 }
 
