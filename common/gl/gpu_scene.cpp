@@ -264,7 +264,8 @@ void unbind_samplers()
 }
 }  // namespace
 
-void GpuScene::draw(const gl::Program& program, Culling culling) const
+void GpuScene::for_each_draw(const gl::Program& program, Culling culling,
+                             const std::function<void(const Draw&)>& run) const
 {
     program.use();
     bind_lights(program);
@@ -279,11 +280,31 @@ void GpuScene::draw(const gl::Program& program, Culling culling) const
                               !materials_[std::size_t(draw.material)].double_sided;
             (cull ? glEnable : glDisable)(GL_CULL_FACE);
         }
-        glDrawElements(GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(std::size_t(draw.first_index) * sizeof(GLuint)));
+        run(draw);
     }
     glDisable(GL_CULL_FACE);
     unbind_samplers();
+}
+
+namespace {
+const void* index_offset(std::uint32_t index) { return reinterpret_cast<const void*>(index * sizeof(GLuint)); }
+}  // namespace
+
+void GpuScene::draw(const gl::Program& program, Culling culling) const
+{
+    for_each_draw(program, culling, [](const Draw& draw) {
+        glDrawElements(GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT, index_offset(draw.first_index));
+    });
+}
+
+void GpuScene::draw_patches(const gl::Program& program, int instances, std::uint32_t most_patches) const
+{
+    glPatchParameteri(GL_PATCH_VERTICES, 3);
+    for_each_draw(program, Culling::none, [&](const Draw& draw) {
+        for (std::uint32_t done = 0; done < draw.index_count; done += 3 * most_patches)
+            glDrawElementsInstanced(GL_PATCHES, GLsizei(std::min(3 * most_patches, draw.index_count - done)),
+                                    GL_UNSIGNED_INT, index_offset(draw.first_index + done), instances);
+    });
 }
 
 void GpuScene::draw_geometry(const gl::Program& program) const

@@ -39,6 +39,10 @@ public:
     // Vertex attributes: 0 position, 1 normal, 2 tangent, 3 uv0, 4 uv1, 5 colour (see Vertex).
     void draw(const gl::Program& program, Culling culling) const;
 
+    // The same for programs with a tessellator: each triangle is a patch of three corners, `instances` times, and a call
+    // of OpenGL's draws at most `most_patches`.
+    void draw_patches(const gl::Program& program, int instances, std::uint32_t most_patches) const;
+
     // Draw every triangle of the scene at once, without materials: gl_PrimitiveID is the triangle's number.
     void draw_geometry(const gl::Program& program) const;
 
@@ -77,6 +81,7 @@ public:
 
 private:
     void bind_material(std::size_t material) const;
+    void for_each_draw(const gl::Program& program, Culling culling, const std::function<void(const Draw&)>& run) const;
     std::size_t triangle_count_ = 0;
     Revision geometry_revision_ = 1, lights_revision_ = 1;
     Bounds bounds_;
