@@ -64,5 +64,8 @@ CONEBOOK_CONSTANT int kRadianceAfterBinding = 2;
 CONEBOOK_CONSTANT int kLinkBinding = 4;
 CONEBOOK_CONSTANT int kChangeBinding = 6;
 CONEBOOK_CONSTANT int kAlbedoBinding = 7;
+// 18: pieces of triangles instead of faces, and what is counted of them.
+CONEBOOK_CONSTANT int kPieceBinding = 2;
+CONEBOOK_CONSTANT int kPieceCountBinding = 5;
 
 CONEBOOK_SHARED_END
