@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -44,6 +45,14 @@ inline std::vector<std::string> chapters()
         if (std::filesystem::exists(entry.path() / "main.cpp")) names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
+}
+
+// Whether a chapter has the parameter voxels. 19 and 20 have patches instead.
+inline bool has_voxels(const std::string& chapter)
+{
+    const int number =
+        chapter.size() > 1 && std::isdigit(chapter[0]) && std::isdigit(chapter[1]) ? std::stoi(chapter) : 0;
+    return number >= 4 && number <= 18;
 }
 
 // `arguments` as in a shell.

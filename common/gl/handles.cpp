@@ -41,6 +41,7 @@ FormatInfo format_info(GLenum internal_format)
         {GL_RGBA32UI, 16, GL_RGBA_INTEGER, GL_UNSIGNED_INT},
         {GL_R8UI, 1, GL_RED_INTEGER, GL_UNSIGNED_INT},
         {GL_R32UI, 4, GL_RED_INTEGER, GL_UNSIGNED_INT},
+        {GL_RG32UI, 8, GL_RG_INTEGER, GL_UNSIGNED_INT},
         {GL_DEPTH_COMPONENT32F, 4, GL_DEPTH_COMPONENT, GL_FLOAT},
     };
     for (const FormatInfo& info : table)
@@ -101,6 +102,15 @@ void Buffer::clear() const
     if (!*this) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
+void grow(Buffer& buffer, const std::string& label, std::size_t bytes, std::size_t kept)
+{
+    if (buffer.bytes() >= bytes) return;
+    Buffer larger(label, (bytes + bytes / 4 + 15) / 16 * 16);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    if (kept > 0) glCopyNamedBufferSubData(buffer.id(), larger.id(), 0, 0, GLsizeiptr(kept));
+    buffer = std::move(larger);
 }
 
 void Buffer::bind(GLenum target, GLuint index) const { glBindBufferBase(target, index, id()); }

@@ -82,8 +82,7 @@ Case parse_case(const std::string& line)
         parsed.arguments += " '" + absolute_argument(word) + "'";
     }
     if (!has_size) parsed.arguments += " --size 256x256";
-    const bool voxel_chapter = std::stoi(parsed.program) >= 4;  // 04 is the first with a grid
-    if (voxel_chapter && !has_voxels) parsed.arguments += " --set voxels=64";
+    if (conebook::has_voxels(parsed.program) && !has_voxels) parsed.arguments += " --set voxels=64";
     return parsed;
 }
 

@@ -18,10 +18,10 @@
 namespace conebook {
 namespace {
 
-// Small pictures; chapters 01 to 03 have no grid.
+// Small pictures, and a small grid where there is one.
 std::string small(const std::string& program)
 {
-    return std::string(" --headless ") + (std::stoi(program) >= 4 ? "--set voxels=16 " : "");
+    return std::string(" --headless ") + (has_voxels(program) ? "--set voxels=16 " : "");
 }
 
 class Program : public testing::TestWithParam<std::string> {
