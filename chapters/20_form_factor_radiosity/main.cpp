@@ -51,11 +51,10 @@ try {
     GBufferViewPass g_buffer_view(app.shaders());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
     PatchValuePass patch_values(app.shaders());
-    SpecularPass specular_light(app.shaders());
     CompositePass composite(app.shaders());
     BoxFilterPass box_filter(app.shaders());
     ToneMapPass tone_map(app.shaders());
-    UploadedPicture mirrors, unfolded;
+    UploadedPicture specular, unfolded;
     Revision shown = 0;
 
     app.each_frame([&] {
@@ -97,17 +96,13 @@ try {
                                          {&radiosity, radiosity.corners_revision()});
         });
 
-        // Mirrors show surfaces and their light along one ray a pixel.
+        // Mirrors and rougher lobes: rays from each pixel to surfaces and their light.
         const gl::Texture* reflected = nullptr;
-        if (parts.specular > 0.0f && has_specular_surfaces(app.scene())) {
-            const gl::Texture* in_mirrors = nullptr;
-            if (radiosity.patches().has_mirrors())
-                app.pass("mirrors", [&] {
-                    in_mirrors =
-                        &mirrors.set(mirror_picture(radiosity, params, scene.lights(), app.scene_camera(), samples));
-                });
-            app.pass("specular light", [&] { reflected = &specular_light.run(g_buffer, *gathered, in_mirrors); });
-        }
+        if (parts.specular > 0.0f && has_specular_surfaces(app.scene()))
+            app.pass("specular light", [&] {
+                reflected = &specular.set(specular_picture(radiosity, params, pixel_params.lobe_rays, scene.lights(),
+                                                           app.scene_camera(), samples));
+            });
 
         // The sum of the parts, or another view.
         const gl::Texture* linear = nullptr;

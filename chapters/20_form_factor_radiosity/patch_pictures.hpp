@@ -27,30 +27,18 @@ private:
     gl::Framebuffer framebuffer_;
 };
 
-// The specular part of the picture: mirrors as they were traced, rough lobes as if they were diffuse.
-class SpecularPass {
-public:
-    explicit SpecularPass(gl::Shaders& shaders);
-    // RGBA32F, W/(sr m^2). `gathered`: E / pi. `mirrors`: null when there are none.
-    const gl::Texture& run(const GBuffer& g_buffer, const gl::Texture& gathered, const gl::Texture* mirrors);
-
-private:
-    gl::Program program_;
-    gl::VertexArray no_vertices_;
-    gl::Texture black_, color_;
-    gl::Framebuffer framebuffer_;
-};
-
-// What mirrors show at each pixel, a ray through its middle: emission, direct and indirect light of the surface at the end
-// of the path, which has been over one mirror or more. Alpha 1 where the pixel sees a mirror.
-ImageF mirror_picture(const Radiosity& radiosity, const RadiosityParams& params, const std::vector<Light>& lights,
-                      const Camera& camera, glm::ivec2 size);
-
 struct PixelParams {
     // Samples along each side of a pixel of a picture of light, 1 .. 4: what is behind an edge counts with its share.
     int pixel_samples = 2;
+    // Rays of a sample into lobes that are too rough for a mirror, 1 .. 64.
+    int lobe_rays = 4;
 };
 void add_parameters(ParameterTable& table, PixelParams& params);
+
+// Indirect specular light at each pixel, from its middle: one ray from a mirror, some from rougher lobes. They find
+// emission, direct and indirect light of the surface at their end, over further mirrors. Alpha 1 where there is a lobe.
+ImageF specular_picture(const Radiosity& radiosity, const RadiosityParams& params, int lobe_rays,
+                        const std::vector<Light>& lights, const Camera& camera, glm::ivec2 size);
 
 // A picture of `side` by `side` samples a pixel, brought to its pixels.
 class BoxFilterPass {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/needs.hpp"
+
 namespace conebook {
 namespace {
 
@@ -148,8 +150,8 @@ bool Radiosity::fit_corners(const RadiosityParams& params)
     if (!corners_from_.differs(params.reconstruction, solution_revision_)) return false;
     surfaces_ = std::make_unique<Surfaces>(*patches_, params.reconstruction);
     corners_.clear();
-    // Mirrors show what surfaces had some bounces earlier.
-    const std::size_t first = patches_->has_mirrors() ? 0 : solution_.after.size() - 1;
+    // Specular surfaces show what others had some bounces earlier.
+    const std::size_t first = has_specular_surfaces(*scene_) ? 0 : solution_.after.size() - 1;
     const Lamps lamps(*patches_);
     const Irradiance none(patches_->size(), glm::vec3(0.0f)), from_lamps = light_of(lamps);
     for (std::size_t i = first; i < solution_.after.size(); ++i) {
