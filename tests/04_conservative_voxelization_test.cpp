@@ -171,17 +171,17 @@ TEST(Voxelizer, FragmentsArePairsOfTriangleAndVoxel)
     const VoxelGrid grid(scene.bounds, {32});
     for (const Voxelizer kind : {Voxelizer::raster, Voxelizer::compute}) {
         ConservativeVoxelizer voxelizer(test_gl().shaders);
-        voxelizer.run(gpu_scene, grid, {int(kind), true, true});
+        voxelizer.run(gpu_scene, grid, {kind, true, true});
         std::size_t sum = 0;
         const auto counts = gl::read_uints(voxelizer.fragment_counts()), masks = gl::read_uints(voxelizer.occupancy());
         for (std::size_t i = 0; i < counts.size(); ++i) {
             sum += counts[i];
             ASSERT_EQ(counts[i] != 0u, masks[i] != 0u);
         }
-        EXPECT_EQ(sum, voxelizer.fragment_count());
+        EXPECT_EQ(sum, voxelizer.fragments().count());
         EXPECT_GT(sum, 4u * 500u);  // more than the first guess: the list was made longer
         auto listed = std::vector<GLuint>(counts.size(), 0u);
-        const auto list = voxelizer.fragments().read<glm::uvec2>();
+        const auto list = voxelizer.fragments().buffer().read<glm::uvec2>();
         for (std::size_t i = 0; i < sum; ++i) {
             const GLuint p = list[i].y;
             const std::size_t row = (p >> 9 & 511u) + std::size_t(grid.size().y) * (p >> 18 & 511u);

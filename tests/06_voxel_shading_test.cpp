@@ -16,7 +16,7 @@ constexpr double kPiD = 3.14159265358979323846;
 VoxelShadingParams shadows(VoxelShadows kind)
 {
     VoxelShadingParams params;
-    params.voxel_shadows = int(kind);
+    params.voxel_shadows = kind;
     return params;
 }
 
@@ -165,7 +165,7 @@ TEST(VoxelShading, DirectionalLambertIsItsFormula)
     const glm::vec3 to_light = glm::normalize(glm::vec3(0.3f, 0.9f, -0.4f));
     b.directional_light(-to_light, glm::vec3(2.0f));
     VoxelShadingParams params = shadows(VoxelShadows::none);
-    params.voxel_lambert = 1;
+    params.voxel_lambert = VoxelLambert::directional;
     const VoxelPipeline pipeline(b.build(), 32, params);
     double differs_from_lambert = 0.0;
     for (const LitFace& face : pipeline.faces()) {

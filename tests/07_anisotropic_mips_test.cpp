@@ -135,7 +135,7 @@ class Filter : public testing::TestWithParam<Directions> {};
 TEST_P(Filter, EveryLevelAndDirectionIsTheDoublePrecisionOne)
 {
     PyramidParams params;
-    params.directions = int(GetParam());
+    params.directions = GetParam();
     const VoxelPipeline pipeline(mixed_scene(), 50, {}, params);
     PyramidLevel finer = pipeline.level(0);
     EXPECT_LT(difference_in_units(finer, base_on_cpu(pipeline, GetParam())), kHalfUnits);
@@ -164,7 +164,7 @@ class OneValue : public testing::TestWithParam<Directions> {};
 TEST_P(OneValue, IsTheSameFromAllSides)
 {
     PyramidParams params;
-    params.directions = int(GetParam());
+    params.directions = GetParam();
     const VoxelPipeline pipeline(mixed_scene(), 50, {}, params);
     for (int level = 0; level < pipeline.levels() - 1; ++level) {
         const PyramidLevel stored = pipeline.level(level);

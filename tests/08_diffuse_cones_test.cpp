@@ -44,7 +44,7 @@ glm::dvec3 axis_of(const glm::vec4& cone) { return glm::normalize(glm::dvec3(con
 TEST(ConeSets, WeightsSumToOneAndDirectionsAreUnitAndAboveTheSurface)
 {
     for (const int count : kCounts)
-        for (const ConeTable table : {ConeTable::tilted, ConeTable::thesis})
+        for (const ConeTable table : {ConeTable::tilted, ConeTable::thesis, ConeTable::thesis_added})
             for (const int sets : {1, 4, 16}) {
                 const ConeSet all = make_interleaved_cones(count, table, 0.0, sets);
                 ASSERT_EQ(all.cones.size(), std::size_t(count * sets));
@@ -161,7 +161,7 @@ Camera inside_furnace() { return look_at({0.3f, 0.2f, 0.5f}, {-0.4f, -0.8f, -1},
 ConeParams march_of(float step)
 {
     ConeParams params = usual();
-    params.walk = int(ConeWalk::march);
+    params.walk = ConeWalk::march;
     params.step = step;
     return params;
 }
@@ -181,7 +181,7 @@ TEST(Furnace, DoesNotDependOnVoxelsOrStep)
     for (const int count : {32, 64, 128}) {
         ConePipeline pipeline(furnace(), inside_furnace(), {64, 64}, count);
         for (const ConeParams& params : {usual(), march_of(0.25f), march_of(0.5f), march_of(1.0f)}) {
-            const std::string name = std::to_string(count) + " voxels, walk " + std::to_string(params.walk) + ", step " +
+            const std::string name = std::to_string(count) + " voxels, walk " + (params.walk == ConeWalk::march ? "march" : "leap") + ", step " +
                                      std::to_string(params.step);
             const Spread s = spread_of(pipeline.gathered(params));
             EXPECT_NEAR(s.mean, 0.5, 0.02 * 0.5) << name;
@@ -350,7 +350,7 @@ TEST(Extremes, NarrowAndWideConesAreFinite)
         for (const Interleave interleave : {Interleave::on, Interleave::off}) {
             ConeParams params = usual();
             params.aperture = aperture_deg;
-            params.interleave = int(interleave);
+            params.interleave = interleave;
             const ImageF gathered = pipeline.gathered(params);
             for (const glm::vec4& pixel : gathered.pixels)
                 for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::isfinite(pixel[c])) << aperture_deg;

@@ -36,9 +36,10 @@ public:
     {
         EXPECT_TRUE(frames_.app().next_frame());
         shadow_maps_.draw(scene_, {});
+        voxels_.voxelize(frames_.app(), scene_);
         voxels_.shade(frames_.app(), scene_, shadow_maps_);
         walk_.run(voxels_.grid(), voxels_.faces());
-        emitters_.run(voxels_.grid(), voxels_.faces(), voxels_.shading(), {});
+        emitters_.run(scene_, voxels_.grid(), voxels_.faces(), voxels_.shading(), {});
         voxels_.filter_coverage(frames_.app());
         bounces_.link(voxels_, walk_, emitters_, cones, params);
         run(params);

@@ -66,7 +66,7 @@ TEST(OnlyWhatChanged, OfTheParametersRunsAgain)
     expect_after("sky", kFromBounces);
     cones.start_offset = 1.0f;
     expect_after("start_offset", once({"links"}) + kFromBounces);
-    frames.params.scene.voxels.shading.voxel_lambert = 1;
+    frames.params.scene.voxels.shading.voxel_lambert = VoxelLambert::directional;
     expect_after("voxel_lambert", kFromShading);
     // Of the camera alone.
     cones.ao_falloff = 2.0f;
@@ -81,7 +81,7 @@ TEST(OnlyWhatChanged, LinksFollowTheDirectionsOfTheCones)
 {
     Frames frames(asset("cornell_box"));
     frames.draw();
-    frames.params.camera.cones.cone_table = int(ConeTable::thesis);
+    frames.params.camera.cones.cone_table = ConeTable::thesis;
     EXPECT_EQ(frames.draw(), once({"links"}) + kFromBounces + kCamera);
     frames.params.camera.cones.aperture = 60.0f;
     EXPECT_EQ(frames.draw(), once({"links"}) + kFromBounces + kCamera);
@@ -111,7 +111,7 @@ TEST(OnlyWhatChanged, OneBounceAfterAllIsOneBounce)
 TEST(OnlyWhatChanged, UpdateAlwaysRunsAllOfIt)
 {
     FrameParams params = Frames::small();
-    params.scene.voxels.update = int(Update::always);
+    params.scene.voxels.update = Update::always;
     const std::vector<float> pixels = first_pixels(Frames::small());
     Frames frames(asset("cornell_box"), params);
     for (int frame = 0; frame < 3; ++frame) {

@@ -62,8 +62,8 @@ TEST(LightPlan, ShadowMapsAreForThoseWhoAsk)
         for (const ShadowMethod pixels : {ShadowMethod::map, ShadowMethod::cone, ShadowMethod::volume})
             for (const VoxelShadows voxels : {VoxelShadows::map, VoxelShadows::none}) {
                 Settings s;
-                s.pixels.shadows = int(pixels);
-                s.voxels.voxel_shadows = int(voxels);
+                s.pixels.shadows = pixels;
+                s.voxels.voxel_shadows = voxels;
                 const LightPlan plan = plan_of(floor_of(lambert(0.5f), lit), s);
                 EXPECT_EQ(plan.shadow_maps.used, lit && (pixels == ShadowMethod::map || voxels == VoxelShadows::map));
                 EXPECT_EQ(plan.shadow_cones.used, lit && pixels == ShadowMethod::cone);

@@ -123,7 +123,7 @@ Scene shining_scene()
 VoxelPipeline with_format(LightFormat format)
 {
     PyramidParams params;
-    params.format = int(format);
+    params.format = format;
     return VoxelPipeline(shining_scene(), 40, {}, params);
 }
 
@@ -153,7 +153,7 @@ TEST(Formats, ShortFloatsRoundToTheNearest)
 {
     const VoxelPipeline exact = with_format(LightFormat::rgba16f), coarse = with_format(LightFormat::r11g11b10f);
     PyramidParams params;
-    params.format = int(LightFormat::r11g11b10f);
+    params.format = LightFormat::r11g11b10f;
     const LitScene lit(shining_scene(), 40, {}, params);
     ASSERT_TRUE(bool(lit.pyramid.coverage()));
     for (int level = 0; level < exact.levels(); ++level) {

@@ -29,7 +29,8 @@ using conebook::Scene;
 
 constexpr std::array scene_names = {"cornell_box",     "cornell_area", "cornell_empty", "white_furnace",
                                     "thin_wall",       "lights",       "glossy_room",   "emissive_shapes",
-                                    "thin_wall_solid", "materials",    "colonnade"};
+                                    "thin_wall_solid", "materials",    "colonnade",     "door",
+                                    "walking_lamp",    "spinning_shapes", "figure"};
 
 fs::path from_environment(const char* name) {
     const char* value = std::getenv(name);
@@ -247,6 +248,9 @@ INSTANTIATE_TEST_SUITE_P(Assets, ClosedRooms,
                                          ClosedRoom{"thin_wall_solid", {-0.9, 1.1, 0.1}},
                                          ClosedRoom{"thin_wall_solid", {0.9, 1.1, 0.1}},
                                          ClosedRoom{"glossy_room", {0.1, 1.2, 0.2}},
+                                         ClosedRoom{"door", {-0.9, 1.1, 0.1}},
+                                         ClosedRoom{"door", {0.9, 1.1, 0.1}},
+                                         ClosedRoom{"walking_lamp", {0.4, 1.2, 0.4}},
                                          ClosedRoom{"emissive_shapes", {0.1, 1.2, 0.2}}));
 
 TEST(Assets, WhiteFurnaceIsWatertightAndConvergesToOne) {

@@ -1,6 +1,7 @@
 // The frames of chapter 12, one at a time, for tests that change something between them.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -28,6 +29,13 @@ public:
     explicit Frames(const std::filesystem::path& scene_file, const FrameParams& start = small())
         : params(start), app_(app_of(scene_file, params)), scene(app_->scene())
     {
+        renew();
+    }
+
+    // Passes that have never drawn anything.
+    void renew()
+    {
+        camera_light.reset();
         scene_light = std::make_unique<SceneLight>(app_->shaders(), app_->scene(), scene, params.scene);
         camera_light = std::make_unique<CameraLight>(app_->shaders(), *scene_light, app_->size(), params.camera);
     }
@@ -43,10 +51,9 @@ public:
     std::map<std::string, int> draw()
     {
         EXPECT_TRUE(app_->next_frame());
-        const LightPlan plan = plan_light(traits_of(app_->scene()), params.scene.voxels.shading, params.scene.bounces,
-                                          params.camera.shadows);
+        const LightPlan plan = make_plan(traits_of(app_->scene()), params);
         scene_light->run(*app_, scene, params.camera.cones, plan);
-        camera_light->see(*app_, scene);
+        camera_light->see(*app_, scene, plan);
         camera_light->gather(*app_, plan);
         picture = &camera_light->sum(*app_);
         app_->show(*picture, *picture);
@@ -67,6 +74,11 @@ public:
     Camera& camera() { return const_cast<Camera&>(app_->scene_camera()); }
 
     FrameParams params;
+    // Chapter 12's, where a test has no other.
+    std::function<LightPlan(const SceneTraits&, const FrameParams&)> make_plan = [](const SceneTraits& traits,
+                                                                                  const FrameParams& p) {
+        return plan_light(traits, p.scene.voxels.shading, p.scene.bounces, p.camera.shadows);
+    };
 
 private:
     static std::unique_ptr<App> app_of(const std::filesystem::path& scene_file, FrameParams& params)

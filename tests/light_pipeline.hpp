@@ -22,7 +22,7 @@ public:
           emitter_light_(test_gl().shaders)
     {
         walk_.run(lit_.grid, lit_.faces);
-        emitters_.run(lit_.grid, lit_.faces, lit_.shading, {});
+        emitters_.run(lit_.scene, lit_.grid, lit_.faces, lit_.shading, {});
         lit_.pyramid.run(lit_.grid, lit_.faces, lit_.shading.radiance(), lit_.shading.revision(), {},
                          emitters_.part_of_voxels());
         look(camera);
@@ -50,7 +50,7 @@ public:
                   bool show_visibility = false)
     {
         SoftShadowLighting lighting(test_gl().shaders);
-        params.shadows = int(method);
+        params.shadows = method;
         return read_picture(lighting.run(g_buffer_, lit_.scene, {lit_.grid, lit_.pyramid, walk_}, lit_.faces,
                                          lit_.shading, lit_.shadow_maps, cone_params, params, show_visibility));
     }

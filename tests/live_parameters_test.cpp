@@ -25,7 +25,7 @@ TEST_P(LiveParameters, ActInTheNextFrame)
 {
     FrameParams start = Frames::small();
     start.camera.accumulation.accumulate = false;
-    start.camera.shadows.shadows = int(ShadowMethod::cone);  // most passes have to do
+    start.camera.shadows.shadows = ShadowMethod::cone;  // most passes have to do
     Frames frames(asset(GetParam()), start);
     // The frame's picture is not tone mapped, so DisplayParams are not in it.
     const ParameterTable table = parameters_of(frames.params.scene, frames.params.camera);
@@ -42,12 +42,7 @@ TEST_P(LiveParameters, ActInTheNextFrame)
         with_effect += int(after != before);
 
         // The same with passes that have never seen anything else.
-        App& app = frames.app();
-        frames.camera_light.reset();
-        frames.scene_light =
-            std::make_unique<SceneLight>(app.shaders(), app.scene(), frames.scene, frames.params.scene);
-        frames.camera_light =
-            std::make_unique<CameraLight>(app.shaders(), *frames.scene_light, app.size(), frames.params.camera);
+        frames.renew();
         frames.draw();
         EXPECT_EQ(after, frames.pixels()) << p.name << "=" << p.value_text(other);
 

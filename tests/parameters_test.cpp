@@ -13,14 +13,15 @@
 namespace conebook {
 namespace {
 
-constexpr int kStraight = 0, kRound = 1, kNone = 2;
+enum class Way { straight, round, none };
 
 struct Fields {
     float length = 0.75f;
     int count = 12;
     bool shown = true;
-    int way = kRound;
+    Way way = Way::round;
     int cones = 6;
+    std::string words;
 };
 
 ParameterTable table_of(Fields& fields)
@@ -31,6 +32,11 @@ ParameterTable table_of(Fields& fields)
     table.add("shown", fields.shown, "");
     table.add("way", fields.way, {"straight", "round", "none"}, "");
     table.add_values("cones", fields.cones, {6, 9, 5}, "");
+    const auto no_digits = [](const std::string& text) {
+        for (const char c : text)
+            if (c >= '0' && c <= '9') throw std::runtime_error("has the digit " + std::string(1, c));
+    };
+    table.add("words", fields.words, no_digits, "");
     return table;
 }
 
@@ -48,16 +54,24 @@ TEST(Parameters, GoToTheirFields)
 {
     Fields fields;
     ParameterTable table = table_of(fields);
-    for (const char* assignment : {"length=2.5e-3", "count=-1", "shown=off", "way=none", "cones=5"})
+    for (const char* assignment : {"length=2.5e-3", "count=-1", "shown=off", "way=none", "cones=5", "words=a:b=c,+d e"})
         table.set(assignment);
     EXPECT_EQ(fields.length, 2.5e-3f);
     EXPECT_EQ(fields.count, -1);
     EXPECT_FALSE(fields.shown);
-    EXPECT_EQ(fields.way, kNone);
+    EXPECT_EQ(fields.way, Way::none);
     EXPECT_EQ(fields.cones, 5);
-    EXPECT_EQ(table.values(), (std::vector<double>{2.5e-3f, -1, 0, kNone, 5}));
-    for (const Parameter& parameter : table.all())
-        EXPECT_NE(parameter.value(), parameter.default_value) << parameter.name;
+    EXPECT_EQ(fields.words, "a:b=c,+d e");
+    EXPECT_EQ(table.values().numbers, (std::vector<double>{2.5e-3f, -1, 0, double(Way::none), 5, 0}));
+    EXPECT_EQ(table.values().texts, (std::vector<std::string>{"", "", "", "", "", "a:b=c,+d e"}));
+    for (const Parameter& parameter : table.all()) EXPECT_FALSE(parameter.is_default()) << parameter.name;
+    EXPECT_EQ(table.changed(), " length=0.0025 count=-1 shown=off way=none cones=5 'words=a:b=c,+d e'");
+    Fields others;
+    ParameterTable same = table_of(others);
+    same.set_values(table.values());
+    EXPECT_EQ(same.changed(), table.changed());
+    table.set("words=none");
+    EXPECT_EQ(fields.words, "");
     table.set("shown=1");
     EXPECT_TRUE(fields.shown);
 }
@@ -72,10 +86,10 @@ TEST(Parameters, ValuesThatDoNotFitAreRefusedAndChangeNothing)
         const std::string fault = fault_of([&] { table.set(assignment); });
         EXPECT_EQ(fault.rfind(std::string("--set ") + assignment + ": ", 0), 0u) << assignment << " said " << fault;
     }
+    EXPECT_EQ(fault_of([&] { table.set("words=abc4"); }), "--set words: has the digit 4");
     EXPECT_EQ(fault_of([&] { table.set("width=1"); }).rfind("--set width: unknown parameter", 0), 0u);
     EXPECT_NE(fault_of([&] { table.set("length"); }), "");
-    for (const Parameter& parameter : table.all())
-        EXPECT_EQ(parameter.value(), parameter.default_value) << parameter.name;
+    for (const Parameter& parameter : table.all()) EXPECT_TRUE(parameter.is_default()) << parameter.name;
     EXPECT_THROW(table.add("way", fields.way, {"a"}, ""), std::logic_error);
 }
 
@@ -99,7 +113,7 @@ TEST(Presets, KeepEveryBitOfEveryValue)
         Fields saved, read;
         const ParameterTable saved_table = table_of(saved);
         ParameterTable read_table = table_of(read);
-        saved = {length, 64, false, kNone, 9};
+        saved = {length, 64, false, Way::none, 9, "a 'quoted' \"word\""};
         const CameraChoice camera{3, glm::dvec3(0.1, -2e6, 3.0), glm::dquat(0.5, 0.5, -0.5, 0.5), 0.7f};
         const LightChoice light{2, glm::vec3(0.1f, length, 30.0f), glm::dvec3(1e6, 0.1, -3.0),
                                 glm::dvec3(0.6, 0.0, 0.8)};
@@ -110,6 +124,7 @@ TEST(Presets, KeepEveryBitOfEveryValue)
         EXPECT_EQ(read.shown, saved.shown);
         EXPECT_EQ(read.way, saved.way);
         EXPECT_EQ(read.cones, saved.cones);
+        EXPECT_EQ(read.words, saved.words);
         EXPECT_EQ(back.view, "depth");
         EXPECT_EQ(back.camera.index, camera.index);
         EXPECT_EQ(back.camera.position, camera.position);
@@ -135,7 +150,7 @@ TEST(Presets, WhatTheyDoNotHoldStaysAsItIs)
     EXPECT_FALSE(read.camera.index || read.camera.position || read.camera.orientation || read.camera.y_fov);
     read = read_preset(preset.hold(R"({"camera": 2, "parameters": {"way": "straight"}})").file(), table);
     EXPECT_EQ(read.camera.index, 2);
-    EXPECT_EQ(fields.way, kStraight);
+    EXPECT_EQ(fields.way, Way::straight);
     EXPECT_EQ(fields.count, 7);
 }
 

@@ -69,7 +69,7 @@ public:
     }
     SoupPipeline(const Scene& scene, const Bounds& bounds, int voxels, Voxelizer voxelizer = Voxelizer::compute,
                  bool conservative = true)
-        : voxels_(scene, bounds, voxels, {int(voxelizer), conservative, false})
+        : voxels_(scene, bounds, voxels, {voxelizer, conservative, false})
     {
     }
     void voxelize() { voxels_.voxelize(); }
@@ -104,7 +104,7 @@ public:
     {
         return voxels_.voxelizer.statistics_buffer().read_at<shared::VoxelStatistics>(0);
     }
-    std::size_t fragment_count() const { return voxels_.voxelizer.fragment_count(); }
+    std::size_t fragment_count() const { return voxels_.voxelizer.fragments().count(); }
     double total_area_voxels() const
     {
         double sum = 0.0;

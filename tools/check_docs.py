@@ -168,7 +168,7 @@ def check_commands(root, page, bin_folder, problems):
         elif word == "" or word.startswith("-"):
             arguments.insert(0, word)
             name = "12_second_bounce"
-        elif word in ("report", "bench", "ladder", "numbers", "reference", "compare", "NN"):
+        elif word in ("report", "bench", "ladder", "roads", "numbers", "reference", "compare", "NN"):
             continue
         else:
             name = next((c for c in known if word in (c[:2], c, str(int(c[:2])))), None)

@@ -197,6 +197,7 @@ def told_by(kind, printed, data):
                            for key, value in test.items() if key not in known}}
     return {"driver": data["driver"], "counts": {c["name"]: c["value"] for c in data["counts"]},
             "ms": {p["name"]: p["min_ms"] for p in data["passes"]},
+            "frames": {p["name"]: p["frames"] for p in data["passes"]},
             "bytes": {r["name"]: r["bytes"] for r in data["resources"]}}
 
 
@@ -220,6 +221,18 @@ class Numbers:
     def ms(self, run, name):
         """Least time of a pass over the frames."""
         return self._run(run)["ms"][name]
+
+    def again(self, run, *names):
+        """Least time in a later frame than the first of all passes, or of these, that ran in one; summed up."""
+        data = self._run(run)
+        return sum(ms for name, ms in data["ms"].items() if data["frames"][name] > 1 and (not names or name in names))
+
+    def events(self, runs):
+        """Of runs {heading: run}: a row for each pass, its least time where it ran in later frames than the first one."""
+        data = [self._run(run) for run in runs.values()]
+        passes = dict.fromkeys(name for told in data for name in told["ms"])
+        return self.table(" | ".join(["pass", *runs]), list(passes), lambda name: [
+            self.significant(told["ms"][name], 2) if told["frames"].get(name, 0) > 1 else "" for told in data])
 
     def megabytes(self, run, name):
         return self._run(run)["bytes"][name] / 1e6

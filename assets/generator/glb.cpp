@@ -19,6 +19,7 @@ using nlohmann::ordered_json;
 double rounded(double value) { return std::round(value * 1e9) / 1e9 + 0.0; }
 
 ordered_json array_of(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+ordered_json array_of(const glm::dquat& q) { return {rounded(q.x), rounded(q.y), rounded(q.z), rounded(q.w)}; }
 
 // Rotation that turns -z, along which glTF cameras and lights look, to `forward`.
 ordered_json look_rotation(const glm::dvec3& forward, glm::dvec3 up) {
@@ -28,7 +29,7 @@ ordered_json look_rotation(const glm::dvec3& forward, glm::dvec3 up) {
     }
     const glm::dvec3 x = glm::normalize(glm::cross(up, z));
     const glm::dquat q = glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z));
-    return {rounded(q.x), rounded(q.y), rounded(q.z), rounded(q.w)};
+    return array_of(q);
 }
 
 class Writer {
@@ -49,6 +50,8 @@ public:
         write_objects();
         write_lights();
         write_cameras();
+        write_skin();
+        write_tracks();
         json_["extensionsUsed"] = extensions_;
         if (extensions_.empty()) {
             json_.erase("extensionsUsed");
@@ -80,26 +83,45 @@ private:
         return json_["accessors"].size() - 1;
     }
 
+    // The extent that glTF asks for of positions.
+    void bound(std::size_t accessor, const std::vector<glm::vec3>& values) {
+        glm::vec3 low = values.at(0), high = low;
+        for (const glm::vec3& value : values) {
+            low = glm::min(low, value);
+            high = glm::max(high, value);
+        }
+        json_["accessors"][accessor]["min"] = array_of(low);
+        json_["accessors"][accessor]["max"] = array_of(high);
+    }
+
     ordered_json mesh_primitive(const Mesh& mesh) {
         constexpr int array_buffer = 34962, element_buffer = 34963, float32 = 5126, uint16 = 5123;
         if (mesh.positions.size() > 65535) {
             throw std::runtime_error(asset_.name + ": a mesh has more than 65535 vertices");
         }
-        glm::vec3 low = mesh.positions.at(0), high = low;
-        for (const glm::vec3& position : mesh.positions) {
-            low = glm::min(low, position);
-            high = glm::max(high, position);
-        }
         const std::size_t count = mesh.positions.size();
         const auto positions = accessor(buffer_view(mesh.positions, array_buffer), float32, count, "VEC3");
-        json_["accessors"][positions]["min"] = array_of(low);
-        json_["accessors"][positions]["max"] = array_of(high);
+        bound(positions, mesh.positions);
         const auto normals = accessor(buffer_view(mesh.normals, array_buffer), float32, count, "VEC3");
         const auto uvs = accessor(buffer_view(mesh.uvs, array_buffer), float32, count, "VEC2");
         const std::vector<std::uint16_t> indices(mesh.indices.begin(), mesh.indices.end());
         const auto index = accessor(buffer_view(indices, element_buffer), uint16, indices.size(), "SCALAR");
-        return {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}},
-                {"indices", index}};
+        ordered_json primitive = {
+            {"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", uvs}}}, {"indices", index}};
+        if (!mesh.joints.empty()) {
+            constexpr int uint8 = 5121;
+            primitive["attributes"]["JOINTS_0"] =
+                accessor(buffer_view(mesh.joints, array_buffer), uint8, count, "VEC4");
+            primitive["attributes"]["WEIGHTS_0"] =
+                accessor(buffer_view(mesh.joint_weights, array_buffer), float32, count, "VEC4");
+        }
+        for (const Mesh::Target& target : mesh.targets) {
+            const auto moved = accessor(buffer_view(target.positions, array_buffer), float32, count, "VEC3");
+            bound(moved, target.positions);
+            const auto turned = accessor(buffer_view(target.normals, array_buffer), float32, count, "VEC3");
+            primitive["targets"].push_back(ordered_json{{"POSITION", moved}, {"NORMAL", turned}});
+        }
+        return primitive;
     }
 
     ordered_json material_json(const Material& m) {
@@ -165,14 +187,28 @@ private:
             primitives.push_back(mesh_primitive(mesh));
         }
         for (const Object& object : asset_.objects) {
-            ordered_json primitive = primitives.at(static_cast<std::size_t>(object.mesh));
-            primitive["material"] = object.material;
-            json_["meshes"].push_back({{"name", object.name}, {"primitives", {primitive}}});
-            ordered_json node = {{"name", object.name}, {"mesh", json_["meshes"].size() - 1}};
+            ordered_json node;
+            node["name"] = object.name;
+            if (object.mesh >= 0) {
+                const auto mesh = static_cast<std::size_t>(object.mesh);
+                ordered_json primitive = primitives.at(mesh);
+                primitive["material"] = object.material;
+                json_["meshes"].push_back({{"name", object.name}, {"primitives", {primitive}}});
+                if (!asset_.meshes[mesh].targets.empty()) {
+                    json_["meshes"].back()["weights"] = std::vector<double>(asset_.meshes[mesh].targets.size(), 0.0);
+                }
+                node["mesh"] = json_["meshes"].size() - 1;
+            }
+            if (object.skinned) {
+                node["skin"] = 0;
+            }
             if (object.translation != glm::dvec3(0.0)) {
                 node["translation"] = array_of(object.translation);
             }
-            add_node(node);
+            if (object.rotation != glm::dquat(1.0, 0.0, 0.0, 0.0)) {
+                node["rotation"] = array_of(object.rotation);
+            }
+            add_node(node, object.parent);
         }
     }
 
@@ -194,7 +230,7 @@ private:
             }
             node["extensions"]["KHR_lights_punctual"] = {{"light", lights.size()}};
             lights.push_back(out);
-            add_node(node);
+            add_node(node, light.parent);
         }
         if (!lights.empty()) {
             json_["extensions"]["KHR_lights_punctual"] = {{"lights", lights}};
@@ -215,9 +251,72 @@ private:
         }
     }
 
-    void add_node(const ordered_json& node) {
-        json_["scenes"][0]["nodes"].push_back(json_["nodes"].size());
+    // Object i is node i, which a child names as its parent.
+    void add_node(const ordered_json& node, int parent = -1) {
+        const std::size_t index = json_["nodes"].size();
+        if (parent < 0) {
+            json_["scenes"][0]["nodes"].push_back(index);
+        } else {
+            json_["nodes"].at(static_cast<std::size_t>(parent))["children"].push_back(index);
+        }
         json_["nodes"].push_back(node);
+    }
+
+    // World from object, as everything stands without animation.
+    glm::dmat4 rest(int object) const {
+        const Object& o = asset_.objects.at(static_cast<std::size_t>(object));
+        glm::dmat4 local = glm::mat4_cast(o.rotation);
+        local[3] = glm::dvec4(o.translation, 1.0);
+        return o.parent < 0 ? local : rest(o.parent) * local;
+    }
+
+    // The mesh is modelled where the joints stand at rest.
+    void write_skin() {
+        if (asset_.joints.empty()) {
+            return;
+        }
+        std::vector<glm::mat4> inverse_bind;
+        for (const int joint : asset_.joints) {
+            const glm::dmat4 exact = glm::inverse(rest(joint));
+            glm::mat4& matrix = inverse_bind.emplace_back();
+            for (int i = 0; i < 16; ++i) {
+                matrix[i / 4][i % 4] = snapped(exact[i / 4][i % 4]);
+            }
+        }
+        const auto matrices = accessor(buffer_view(inverse_bind, 0), 5126, inverse_bind.size(), "MAT4");
+        json_["skins"].push_back(ordered_json{{"inverseBindMatrices", matrices}, {"joints", asset_.joints}});
+    }
+
+    void write_tracks() {
+        if (asset_.tracks.empty()) {
+            return;
+        }
+        constexpr const char* paths[] = {"translation", "rotation", "scale", "weights"};
+        constexpr const char* ways[] = {"STEP", "LINEAR", "CUBICSPLINE"};
+        ordered_json channels, samplers;
+        for (const Track& track : asset_.tracks) {
+            const std::vector<float> times(track.times_s.begin(), track.times_s.end());
+            std::vector<float> values;
+            for (const std::vector<double>& row : track.values) {
+                for (const double value : row) {
+                    values.push_back(snapped(value));
+                }
+            }
+            constexpr int float32 = 5126;
+            const auto input = accessor(buffer_view(times, 0), float32, times.size(), "SCALAR");
+            json_["accessors"][input]["min"] = std::vector<float>{times.front()};
+            json_["accessors"][input]["max"] = std::vector<float>{times.back()};
+            const bool weights = track.path == Path::weights;
+            const auto output =
+                accessor(buffer_view(values, 0), float32, weights ? values.size() : track.values.size(),
+                         weights ? "SCALAR" : track.path == Path::rotation ? "VEC4" : "VEC3");
+            const ordered_json target = {{"node", track.object}, {"path", paths[static_cast<int>(track.path)]}};
+            channels.push_back(ordered_json{{"sampler", samplers.size()}, {"target", target}});
+            samplers.push_back(
+                {{"input", input}, {"output", output}, {"interpolation", ways[static_cast<int>(track.interpolation)]}});
+        }
+        json_["animations"].push_back(
+            ordered_json{{"name", "motion"}, {"channels", channels}, {"samplers", samplers}});
     }
 
     // glTF 2.0, section 4: magic, version, length; each chunk: length, type, data padded to four bytes.
@@ -264,7 +363,21 @@ int Asset::add(std::string object_name, Mesh mesh, Material material) {
     meshes.push_back(std::move(mesh));
     materials.push_back(std::move(material));
     const int mesh_index = int(meshes.size()) - 1, material_index = int(materials.size()) - 1;
-    objects.push_back({std::move(object_name), mesh_index, material_index, glm::dvec3(0.0)});
+    Object object;
+    object.name = std::move(object_name);
+    object.mesh = mesh_index;
+    object.material = material_index;
+    objects.push_back(std::move(object));
+    return int(objects.size()) - 1;
+}
+
+int Asset::add_joint(std::string object_name, int parent, glm::dvec3 translation) {
+    Object object;
+    object.name = std::move(object_name);
+    object.mesh = -1;
+    object.translation = translation;
+    object.parent = parent;
+    objects.push_back(std::move(object));
     return int(objects.size()) - 1;
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/gtc/quaternion.hpp>
+
 #include "image.hpp"
 #include "mesh.hpp"
 
@@ -27,8 +29,24 @@ Material lambert(std::string name, glm::dvec3 rho, glm::dvec3 emission = glm::dv
 
 struct Object {
     std::string name;
-    int mesh = 0, material = 0;
+    int mesh = 0, material = 0;   // mesh -1: a node that shows nothing, a joint
     glm::dvec3 translation{0.0};  // m
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    int parent = -1;              // an object before this one, in whose space it stands
+    bool skinned = false;         // the asset's skin moves its mesh
+};
+
+enum class Path { translation, rotation, scale, weights };
+enum class Interpolation { step, linear, cubic_spline };
+
+// What an object does over time. Rotations are quaternions x y z w. A key is one row of `values`; of a cubic spline three:
+// tangent in, value, tangent out, tangents a second.
+struct Track {
+    int object = 0;
+    Path path = Path::translation;
+    Interpolation interpolation = Interpolation::linear;
+    std::vector<double> times_s;
+    std::vector<std::vector<double>> values;
 };
 
 enum class LightKind { directional, point, spot };
@@ -41,6 +59,7 @@ struct Light {
     glm::dvec3 position{0.0};              // m
     glm::dvec3 direction{0.0, -1.0, 0.0};  // the way the light travels
     double inner_degrees = 0.0, outer_degrees = 45.0;  // spot, half angles
+    int parent = -1;                       // the object that carries it: position and direction are in its space
 };
 
 struct Camera {
@@ -58,9 +77,13 @@ struct Asset {
     std::vector<Object> objects;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
+    std::vector<Track> tracks;  // one animation
+    std::vector<int> joints;    // objects: the joints of the skin
 
     // Appends a mesh with its material and one object that shows it; returns the object's index.
     int add(std::string object_name, Mesh mesh, Material material);
+    // Appends an object that shows nothing; returns its index.
+    int add_joint(std::string object_name, int parent, glm::dvec3 translation);
 };
 
 // Writes `asset` as glTF 2.0 binary (12-byte header, JSON chunk, BIN chunk). Throws std::runtime_error that names

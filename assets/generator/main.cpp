@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
         }
         for (const Asset& asset : {cornell_box(), cornell_area(), cornell_empty(), white_furnace(), thin_wall(),
                                    thin_wall_solid(), lights(), glossy_room(), emissive_shapes(), materials(),
-                                   colonnade()}) {
+                                   colonnade(), door(), walking_lamp(), spinning_shapes(), figure()}) {
             const auto file = folder / (asset.name + ".glb");
             write_glb(asset, file);
             std::printf("%-20s %8ju bytes\n", (asset.name + ".glb").c_str(),

@@ -10,12 +10,10 @@ namespace {
 
 constexpr double two_pi = glm::two_pi<double>();
 
-float snapped(double value) {
-    constexpr double steps_per_unit = 1048576.0;  // 2^20
-    return static_cast<float>(std::round(value * steps_per_unit) / steps_per_unit + 0.0);  // + 0.0: no negative zero
+glm::vec3 snapped(const glm::dvec3& v) {
+    using generator::snapped;
+    return {snapped(v.x), snapped(v.y), snapped(v.z)};
 }
-
-glm::vec3 snapped(const glm::dvec3& v) { return {snapped(v.x), snapped(v.y), snapped(v.z)}; }
 
 // Grid of (columns + 1) x (rows + 1) vertices, row by row, that starts at `first`; two triangles per cell with the
 // front towards (column direction) x (row direction).
@@ -32,11 +30,24 @@ void add_grid_triangles(Mesh& mesh, std::uint32_t first, int columns, int rows) 
 
 }  // namespace
 
+float snapped(double value) {
+    constexpr double steps_per_unit = 1048576.0;  // 2^20
+    return static_cast<float>(std::round(value * steps_per_unit) / steps_per_unit + 0.0);  // + 0.0: no negative zero
+}
+
 std::uint32_t Mesh::vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec2& uv) {
     positions.push_back(snapped(position));
     normals.push_back(snapped(glm::normalize(normal)));
     uvs.push_back({snapped(uv.x), snapped(uv.y)});
     return static_cast<std::uint32_t>(positions.size() - 1);
+}
+
+void Mesh::add_target(const Mesh& other) {
+    Target& target = targets.emplace_back();
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        target.positions.push_back(other.positions.at(i) - positions[i]);
+        target.normals.push_back(other.normals.at(i) - normals[i]);
+    }
 }
 
 // Triangles that collapse to a line (the grid's cells at a sphere's poles) are left out.

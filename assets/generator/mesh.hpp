@@ -15,11 +15,26 @@ struct Mesh {
     std::vector<glm::vec2> uvs;        // glTF: (0,0) is the top left texel
     std::vector<std::uint32_t> indices;
 
+    // Of a mesh that a skin moves, for each vertex: numbers of four of its joints, and their weights, sum 1.
+    std::vector<glm::u8vec4> joints;
+    std::vector<glm::vec4> joint_weights;
+
+    // What a morph target with weight 1 adds to each vertex.
+    struct Target {
+        std::vector<glm::vec3> positions, normals;
+    };
+    std::vector<Target> targets;
+
     // Every coordinate is rounded to a multiple of 2^-20. The last bit of sin and cos differs between maths libraries;
     // after rounding the files are the same everywhere, and seams of closed surfaces meet exactly.
     std::uint32_t vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec2& uv);
+    // The morph target that makes vertex i of this mesh vertex i of `other`.
+    void add_target(const Mesh& other);
     void triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 };
+
+// The multiple of 2^-20 next to a value.
+float snapped(double value);
 
 // Rigid placement of a shape: rotation about y, then translation.
 struct Place {

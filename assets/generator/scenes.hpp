@@ -16,5 +16,9 @@ Asset glossy_room();
 Asset emissive_shapes();
 Asset materials();
 Asset colonnade();
+Asset door();
+Asset walking_lamp();
+Asset spinning_shapes();
+Asset figure();
 
 }  // namespace conebook::generator

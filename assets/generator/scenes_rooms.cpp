@@ -138,8 +138,12 @@ Asset materials() {
         for (int column = 0; column < 6; ++column) {
             const std::string name = "sphere_" + std::to_string(row) + "_" + std::to_string(column);
             asset.materials.push_back(surface(name, {0.9, 0.65, 0.3}, 0.5 * row, 0.2 * column));
-            asset.objects.push_back({name, ball, int(asset.materials.size()) - 1,
-                                     {-1.25 + 0.5 * column, 0.3 + 0.5 * row, 0.3 - 0.3 * row}});
+            Object object;
+            object.name = name;
+            object.mesh = ball;
+            object.material = int(asset.materials.size()) - 1;
+            object.translation = {-1.25 + 0.5 * column, 0.3 + 0.5 * row, 0.3 - 0.3 * row};
+            asset.objects.push_back(object);
         }
     }
 

@@ -28,7 +28,7 @@ const gl::Texture& ToneMapPass::run(const gl::Texture& linear, Encoding encoding
     gl::fit_to_pixels(display_, framebuffer_, "display", GL_RGBA8, linear.size_2d());
     linear.bind(0);
     program_.set("encoding", int(encoding));
-    program_.set("tone_curve", params.tone_curve);
+    program_.set("tone_curve", int(params.tone_curve));
     program_.set("exposure", params.exposure);
     program_.set("white", params.white);
     program_.set("srgb", params.srgb);

@@ -18,7 +18,7 @@ struct DisplayParams {
     // for surfaces near a light without turning the rest grey.
     float white = 4.0f;
     // Reinhard, or none: values above 1 are cut off.
-    int tone_curve = int(ToneCurve::reinhard);
+    ToneCurve tone_curve = ToneCurve::reinhard;
     // Off writes linear values, as many first programs do: the picture is too dark.
     bool srgb = true;
 };

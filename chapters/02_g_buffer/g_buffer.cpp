@@ -34,7 +34,7 @@ void GBuffer::draw(const GpuScene& scene, const shared::CameraData& camera)
 
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
-    scene.draw(program_, Culling::back_of_single_sided);
+    drawn_ = scene.draw(program_, Culling::back_of_single_sided, &camera.clip_from_scene);
     glDisable(GL_DEPTH_TEST);
 }
 

@@ -24,6 +24,7 @@ public:
     // For shaders that include common/g_buffer.glsl: textures on units 8..13, kCameraBlock.
     void bind() const;
 
+    std::size_t drawn() const { return drawn_; }  // draws of the last picture: of objects that the camera may see
     glm::ivec2 size() const { return depth_.size_2d(); }
     const gl::Texture& depth() const { return depth_; }
     const gl::Texture& normal() const { return normal_; }
@@ -35,6 +36,7 @@ public:
 
 private:
     gl::Program program_;
+    std::size_t drawn_ = 0;
     gl::Buffer camera_buffer_;
     gl::Texture depth_, normal_, geometric_normal_, base_color_metallic_, f0_f90_, emission_roughness_;
     gl::Framebuffer framebuffer_;

@@ -211,6 +211,7 @@ bool ShadowMaps::draw(const GpuScene& scene, const ShadowMapParams& params)
     if (!made_from_.differs(scene.geometry_revision(), scene.lights_revision(), params.shadow_map_size)) return false;
     ++revision_;
     drawn_ = true;
+    draws_ = 0;
     aim(scene);
     // snippet: draw
     depth_.clear();  // 0: farthest
@@ -220,7 +221,8 @@ bool ShadowMaps::draw(const GpuScene& scene, const ShadowMapParams& params)
         framebuffer_.attach_depth_layer(depth_, layer.place.z);
         framebuffer_.bind(glm::ivec2(layer.place), glm::ivec2(layer.place.w));
         program_.set("clip_from_scene", layer.clip_from_scene);
-        scene.draw(program_, Culling::none);  // both faces cast shadows
+        // Both faces cast shadows; objects beside the map cast none on it.
+        draws_ += scene.draw(program_, Culling::none, &layer.clip_from_scene);
     }
     glDisable(GL_DEPTH_TEST);
     // end snippet

@@ -37,6 +37,7 @@ public:
 
     int layers() const { return int(layers_.size()); }
     int size() const { return size_; }  // of every map, texels
+    std::size_t draws() const { return draws_; }  // when the maps were drawn last, of all of them
     const shared::ShadowLayer& layer(int i) const { return layers_[std::size_t(i)]; }
     const gl::Texture& depth() const { return depth_; }  // DEPTH32F array, 1 near .. 0 far
     std::vector<gl::Resource> resources() const { return {depth_.resource()}; }
@@ -51,6 +52,7 @@ private:
     MadeFrom<float, bool> looked_into_;            // bias, receiver plane
     Revision revision_ = 0;
     bool drawn_ = false;
+    std::size_t draws_ = 0;
     gl::Program program_;
     std::vector<Triangle> triangles_;  // of the scene, kept for lights that move
     MadeFrom<Revision> triangles_of_;  // geometry

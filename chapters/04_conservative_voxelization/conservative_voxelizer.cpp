@@ -42,11 +42,12 @@ void ConservativeVoxelizer::allocate(const VoxelGrid& grid, const VoxelizerParam
         fragment_counts_ = gl::texture_3d("fragment counts", GL_R32UI, size);
 }
 
-std::size_t ConservativeVoxelizer::fragment_count() const
+void ConservativeVoxelizer::free_scratch(bool occupancy_too)
 {
-    std::size_t sum = 0;
-    for (const shared::FragmentRange& range : ranges_) sum += range.count;
-    return sum;
+    fragments_ = {};
+    room_for_.forget();
+    large_triangles_ = {};
+    if (occupancy_too) occupancy_ = {};
 }
 
 std::vector<gl::Resource> ConservativeVoxelizer::resources() const
@@ -57,11 +58,11 @@ std::vector<gl::Resource> ConservativeVoxelizer::resources() const
     return resources;
 }
 
-void ConservativeVoxelizer::make_room(const std::vector<std::size_t>& fragments_of_materials)
+void FragmentList::make_room(const std::vector<std::size_t>& of_materials)
 {
     std::size_t total = 0;
     ranges_.clear();
-    for (const std::size_t fragments : fragments_of_materials) {
+    for (const std::size_t fragments : of_materials) {
         ranges_.push_back({GLuint(total), GLuint(fragments), 0, 0});
         total += fragments;
     }
@@ -70,56 +71,109 @@ void ConservativeVoxelizer::make_room(const std::vector<std::size_t>& fragments_
     range_buffer_ = gl::Buffer("fragment ranges", ranges_);
 }
 
-void ConservativeVoxelizer::mark(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params)
+void FragmentList::clear()
 {
-    // Forget what the last run marked.
-    occupancy_.clear();
-    statistics_.clear();
+    for (shared::FragmentRange& range : ranges_) range.count = 0;
+    range_buffer_.write(0, range_buffer_.bytes(), ranges_.data());
+}
+
+void FragmentList::bind() const
+{
+    range_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentRangeBinding);
+    fragments_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentBinding);
+}
+
+bool FragmentList::take_counts()
+{
+    ranges_ = range_buffer_.read<shared::FragmentRange>();
+    // The counts are right even where there was no room for all.
+    const auto found_more = [](const shared::FragmentRange& range) { return range.count > range.capacity; };
+    if (std::none_of(ranges_.begin(), ranges_.end(), found_more)) return true;
+    // Some more than that, if it can be had, since what moves finds other numbers soon.
+    std::vector<std::size_t> exact, more;
+    std::size_t sum = 0;
+    for (const shared::FragmentRange& range : ranges_) {
+        exact.push_back(range.count);
+        more.push_back(found_more(range) ? range.count + range.count / 4 : range.capacity);
+        sum += more.back();
+    }
+    make_room(sum * sizeof(glm::uvec2) <= gl::most_storage_bytes() ? more : exact);
+    return false;
+}
+
+std::size_t FragmentList::count() const
+{
+    std::size_t sum = 0;
+    for (const shared::FragmentRange& range : ranges_) sum += range.count;
+    return sum;
+}
+
+void ConservativeVoxelizer::mark(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params,
+                                 const std::vector<Range>& triangles, const gl::Buffer& counters, FragmentList& list)
+{
+    list.clear();
+    counters.clear();
     if (fragment_counts_) {
         fragment_counts_.clear();
         fragment_counts_.bind_image(1, 0, GL_READ_WRITE);
     }
-    for (shared::FragmentRange& range : ranges_) range.count = 0;
-    range_buffer_.write(0, range_buffer_.bytes(), ranges_.data());
-
-    // Mark every voxel that a triangle overlaps.
     grid.bind();
     scene.bind_triangles();
     occupancy_.bind_image(0, 0, GL_READ_WRITE);
-    range_buffer_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentRangeBinding);
-    fragments_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentBinding);
-    statistics_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
+    list.bind();
+    counters.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
     const gl::Defines defines = {{"CONSERVATIVE", params.conservative ? "1" : "0"},
                                  {"COUNT_FRAGMENTS", params.count_fragments ? "1" : "0"}};
     if (Voxelizer(params.voxelizer) == Voxelizer::raster) {
         const glm::ivec3 size = grid.size();
         column_plane_.bind(glm::ivec2(std::max({size.x, size.y, size.z})));
-        scene.draw_geometry(raster_mark_.with(defines));
-    } else {
-        large_triangles_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLargeTriangleBinding);
-        const gl::Program &small = mark_small_.with(defines), &large_ones = mark_large_.with(defines);
-        small.use();
-        small.set("triangle_count", GLuint(scene.triangle_count()));
-        gl::dispatch_items(scene.triangle_count(), 64);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-        // The fewer triangles are large, the more work groups each of them gets.
-        const std::size_t large = statistics_.read_at<shared::VoxelStatistics>(0).large;
-        const std::size_t groups_of_triangle = std::clamp<std::size_t>(1024 / std::max<std::size_t>(large, 1), 1, 64);
-        large_ones.use();
-        large_ones.set("groups_of_triangle", int(groups_of_triangle));
-        gl::dispatch_items(large * groups_of_triangle, 1);
+        for (const Range& range : triangles) scene.draw_geometry(raster_mark_.with(defines), range);
+        return;
     }
-    ranges_ = range_buffer_.read<shared::FragmentRange>();
+    large_triangles_.bind(GL_SHADER_STORAGE_BUFFER, shared::kLargeTriangleBinding);
+    const gl::Program &small = mark_small_.with(defines), &large_ones = mark_large_.with(defines);
+    small.use();
+    for (const Range& range : triangles) {
+        small.set("first_triangle", range.first);
+        small.set("triangle_count", range.count);
+        gl::dispatch_items(range.count, 64);
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    // The fewer triangles are large, the more work groups each of them gets.
+    const std::size_t large = counters.read_at<shared::VoxelStatistics>(0).large;
+    const std::size_t groups_of_triangle = std::clamp<std::size_t>(1024 / std::max<std::size_t>(large, 1), 1, 64);
+    large_ones.use();
+    large_ones.set("groups_of_triangle", int(groups_of_triangle));
+    gl::dispatch_items(large * groups_of_triangle, 1);
+}
+
+void ConservativeVoxelizer::add(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params,
+                                const std::vector<Range>& triangles, const gl::Buffer& counters, FragmentList& list)
+{
+    if (Voxelizer(params.voxelizer) == Voxelizer::compute &&
+        large_triangles_.bytes() < scene.triangle_count() * sizeof(GLuint))
+        large_triangles_ = gl::Buffer("large triangles", scene.triangle_count() * sizeof(GLuint));
+    // A second time where the list was too short; marks stay the same.
+    do {
+        mark(scene, grid, params, triangles, counters, list);
+    } while (!list.take_counts());
 }
 
 bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params)
 {
     if (!made_from_.differs(scene.geometry_revision(), grid.revision(), params)) return false;
+    make(scene, grid, params, {{0, GLuint(scene.triangle_count())}});
+    return true;
+}
+
+void ConservativeVoxelizer::make(const GpuScene& scene, const VoxelGrid& grid, const VoxelizerParams& params,
+                                 const std::vector<Range>& triangles)
+{
     const bool compute = Voxelizer(params.voxelizer) == Voxelizer::compute;
     if (compute && !params.conservative) throw std::runtime_error("conservative=off is for voxelizer=raster only");
     ++revision_;
     allocate(grid, params);
-    if (room_for_.differs(grid.revision())) {
+    if (room_for_.differs(grid.revision()) || fragments_.ranges().size() != scene.materials().size()) {
         // In the mean over all places a triangle meets 1 + its box's sides + its areas along the axes in voxels: the
         // volume of its Minkowski sum with a voxel. Places that are not random, as of walls between two layers of
         // voxels, may find more; a quarter is left for them.
@@ -132,32 +186,22 @@ bool ConservativeVoxelizer::run(const GpuScene& scene, const VoxelGrid& grid, co
         const double share = std::min(1.25, double(gl::most_storage_bytes() / sizeof(glm::uvec2)) / std::max(sum, 1.0));
         std::vector<std::size_t> fragments;
         for (const MaterialUse& use : scene.material_uses()) fragments.push_back(std::size_t(share * mean(use)));
-        make_room(fragments);
+        fragments_.make_room(fragments);
     }
-    if (compute && !large_triangles_)
-        large_triangles_ = gl::Buffer("large triangles", scene.triangle_count() * sizeof(GLuint));
-    mark(scene, grid, params);
-
-    // The counts are right even where there was no room for all.
-    const auto found_more = [](const shared::FragmentRange& range) { return range.count > range.capacity; };
-    if (std::any_of(ranges_.begin(), ranges_.end(), found_more)) {
-        std::vector<std::size_t> fragments;
-        for (const shared::FragmentRange& range : ranges_) fragments.push_back(range.count);
-        make_room(fragments);
-        mark(scene, grid, params);
-    }
+    occupancy_.clear();
+    add(scene, grid, params, triangles, statistics_, fragments_);
 
     // Carry the marks to the coarser levels.
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     next_level_.use();
     for (int level = 1; level < grid.levels(); ++level) {
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
         occupancy_.bind_image(0, level - 1, GL_READ_ONLY);
         occupancy_.bind_image(1, level, GL_WRITE_ONLY);
         const glm::ivec3 groups = (glm::max(grid.size() >> level, glm::ivec3(1)) + 3) / 4;
         glDispatchCompute(GLuint(groups.x), GLuint(groups.y), GLuint(groups.z));
+        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     }
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    return true;
 }
 
 VoxelViewPass::VoxelViewPass(gl::Shaders& shaders)

@@ -64,7 +64,7 @@ try {
         most = std::max(most, double(fragments));
     }
     const glm::ivec3 size = grid.size();
-    const double fragments = double(voxelizer.fragment_count());
+    const double fragments = double(voxelizer.fragments().count());
     app.statistics().set_counts({{"grid x", double(size.x), "voxels"},
                                  {"grid y", double(size.y), "voxels"},
                                  {"grid z", double(size.z), "voxels"},

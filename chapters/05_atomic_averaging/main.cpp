@@ -31,7 +31,7 @@ try {
     VoxelGridParams grid_params;
     VoxelizerParams voxelizer_params;
     DisplayParams display_params;
-    int averaging = int(Averaging::sums);
+    Averaging averaging = Averaging::sums;
     bool count_changes = false;
     ParameterTable parameters = parameters_of(grid_params, voxelizer_params, display_params);
     parameters.add("averaging", averaging, {"sums", "compare_and_swap", "compare_and_swap_truncating", "racing_store"},
@@ -67,7 +67,7 @@ try {
 
         // Occupied voxels -> list of faces -> sums over fragments -> means.
         app.pass("average", Scope::scene, [&] { return faces.run(scene, grid, voxelizer); });
-        naive = averaging != int(Averaging::sums) ? &naive_average : nullptr;
+        naive = averaging != Averaging::sums ? &naive_average : nullptr;
         if (naive != nullptr)
             app.pass("naive average", [&] { naive_average.run(scene, grid, voxelizer, Averaging(averaging)); });
 
@@ -91,7 +91,7 @@ try {
     const shared::VoxelStatistics counted = faces.counted();
     std::vector<Count> counts = {{"occupied voxels", double(counted.voxels), ""},
                                  {"occupied faces", double(counted.faces), ""},
-                                 {"fragments", double(voxelizer.fragment_count()), ""},
+                                 {"fragments", double(voxelizer.fragments().count()), ""},
                                  {"triangles without area", double(counted.degenerate), ""}};
     if (naive != nullptr) counts.push_back({"RMS error of the naive mean", rms_error(*naive, faces), ""});
     if (count_changes) counts.push_back({"values that changed between frames", changes.most_changed(), ""});

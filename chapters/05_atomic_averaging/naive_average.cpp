@@ -15,7 +15,7 @@ void NaiveAverage::run(const GpuScene& scene, const VoxelGrid& grid, const Conse
     if (!color_ || color_.size() != grid.size()) color_ = gl::texture_3d("naive mean", GL_R32UI, grid.size());
     color_.clear();
     color_.bind_image(0, 0, GL_READ_WRITE);
-    programs_.run(scene, grid, voxelizer,
+    programs_.run(scene, grid, voxelizer.fragments(),
                   {{"RACING_STORE", averaging == Averaging::racing_store ? "1" : "0"},
                    {"TRUNCATING", averaging == Averaging::compare_and_swap_truncating ? "1" : "0"}});
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);

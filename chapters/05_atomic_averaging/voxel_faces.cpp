@@ -18,13 +18,6 @@ void grow(gl::Buffer& buffer, const std::string& label, std::size_t bytes)
     if (!buffer || buffer.bytes() < bytes) buffer = gl::Buffer(label, bytes);
 }
 
-constexpr std::size_t kBytesOfSums = 2 * shared::kSumCount * sizeof(GLuint);  // of a face
-
-gl::Buffer dispatch_of(const std::string& label, std::size_t items)
-{
-    return gl::Buffer(label, std::vector{gl::group_counts(items, 64)});
-}
-
 gl::Defines voxel_material_defines(const Material& m, bool has_vertex_alpha)
 {
     const auto flag = [](bool on) { return on ? std::string("1") : std::string("0"); };
@@ -35,7 +28,7 @@ gl::Defines voxel_material_defines(const Material& m, bool has_vertex_alpha)
             {"SPECULAR_COLOR_TEXTURE", flag(m.specular_color_texture.present())},
             {"COVERAGE_TEXTURE", flag(m.alpha_mode == AlphaMode::mask && m.base_color_texture.present())},
             {"VERTEX_ALPHA", flag(m.alpha_mode == AlphaMode::mask && has_vertex_alpha)},
-            {"EMISSION", flag(m.unlit || m.emission != glm::vec3(0.0f))}};
+            {"EMISSION", flag(m.shines())}};
 }
 
 }  // namespace
@@ -58,21 +51,31 @@ const gl::Program& FragmentPrograms::of(const GpuScene& scene, std::size_t mater
     return program;
 }
 
-void FragmentPrograms::run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
-                           const gl::Defines& more)
+void FragmentPrograms::run(const GpuScene& scene, const VoxelGrid& grid, const FragmentList& fragments,
+                           const gl::Defines& more, GLuint first_face)
 {
     grid.bind();
     scene.bind_triangles();
-    voxelizer.fragments().bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentBinding);
+    fragments.buffer().bind(GL_SHADER_STORAGE_BUFFER, shared::kFragmentBinding);
     scene.for_each_material([&](std::size_t i) {
-        const shared::FragmentRange& range = voxelizer.fragment_ranges()[i];
+        const shared::FragmentRange& range = fragments.ranges()[i];
         if (range.count == 0) return;
         const gl::Program& program = of(scene, i, more);
         program.use();
+        program.set("first_face", first_face);
         program.set("first_fragment", range.begin);
         program.set("fragment_count", range.count);
         gl::dispatch_items(range.count, 64);
     });
+}
+
+void FaceLists::count_groups()
+{
+    const auto dispatch_of = [](const char* label, std::size_t items) {
+        return gl::Buffer(label, std::vector{gl::group_counts(items, 64)});
+    };
+    face_groups = dispatch_of("face dispatch", counted.faces);
+    voxel_groups = dispatch_of("voxel dispatch", counted.voxels);
 }
 
 VoxelFaces::VoxelFaces(gl::Shaders& shaders, const ConservativeVoxelizer& voxelizer)
@@ -87,8 +90,8 @@ VoxelFaces::VoxelFaces(gl::Shaders& shaders, const ConservativeVoxelizer& voxeli
 
 void VoxelFaces::allocate(const VoxelGrid& grid)
 {
-    if (face_index_ && face_index_.size() == grid.size()) return;
-    face_index_ = gl::texture_3d("face index", GL_R32UI, grid.size());
+    if (lists_.face_index && lists_.face_index.size() == grid.size()) return;
+    lists_.face_index = gl::texture_3d("face index", GL_R32UI, grid.size());
     const glm::ivec3 blocks = blocks_of(grid);
     block_counts_ = gl::Buffer("block counts", std::size_t(blocks.x) * std::size_t(blocks.y) * std::size_t(blocks.z) *
                                                    4 * sizeof(GLuint));
@@ -112,20 +115,19 @@ void VoxelFaces::make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& 
     scan_blocks_.use();
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    counted_ = statistics_->read_at<shared::VoxelStatistics>(0);
-    if (counted_.faces >= (1u << 26))
+    lists_.counted = statistics_->read_at<shared::VoxelStatistics>(0);
+    if (lists_.counted.faces >= (1u << 26))
         throw std::runtime_error("the voxels have more than 2^26 faces; use a smaller --set voxels=");
-    gl::require_storage("faces of voxels, their sums", counted_.faces, kBytesOfSums, "a smaller --set voxels=");
+    gl::require_storage("faces of voxels, their sums", lists_.counted.faces, kBytesOfSums, "a smaller --set voxels=");
 
     // Write the lists.
-    grow(voxel_list_, "voxel list", counted_.voxels * sizeof(GLuint));
-    grow(face_list_, "face list", counted_.faces * sizeof(GLuint));
-    face_groups_ = dispatch_of("face dispatch", counted_.faces);
-    voxel_groups_ = dispatch_of("voxel dispatch", counted_.voxels);
-    face_index_.clear();
-    face_index_.bind_image(1, 0, GL_WRITE_ONLY);
-    voxel_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelListBinding);
-    face_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceListBinding);
+    grow(lists_.voxel_list, "voxel list", lists_.counted.voxels * sizeof(GLuint));
+    grow(lists_.face_list, "face list", lists_.counted.faces * sizeof(GLuint));
+    lists_.count_groups();
+    lists_.face_index.clear();
+    lists_.face_index.bind_image(1, 0, GL_WRITE_ONLY);
+    lists_.voxel_list.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelListBinding);
+    lists_.face_list.bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceListBinding);
     write_list_.use();
     gl::dispatch_items(block_count, 64);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
@@ -138,37 +140,49 @@ bool VoxelFaces::run(const GpuScene& scene, const VoxelGrid& grid, const Conserv
     ++revision_;
     allocate(grid);
     make_lists(grid, voxelizer);
-
-    // Add up the fragments of every face.
-    grow(sums_, "face sums", counted_.faces * kBytesOfSums);
-    grow(faces_, "faces", counted_.faces * sizeof(shared::VoxelFace));
-    sums_.clear();
-    sums_.bind(GL_SHADER_STORAGE_BUFFER, shared::kSumBinding);
-    face_index_.bind_image(0, 0, GL_READ_ONLY);
-    accumulate_.run(scene, grid, voxelizer);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-
-    // Divide.
-    bind();
-    resolve_.use();
-    gl::dispatch_items(counted_.faces, 64);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    lists_.kept = lists_.counted.faces;
+    ++lists_.order;
+    grow(lists_.sums, "face sums", lists_.counted.faces * kBytesOfSums);
+    grow(lists_.faces, "faces", lists_.counted.faces * sizeof(shared::VoxelFace));
+    lists_.sums.clear();
+    add(scene, grid, voxelizer.fragments(), 0);
+    divide(grid, 0, lists_.counted.faces);
     return true;
+}
+
+void VoxelFaces::add(const GpuScene& scene, const VoxelGrid& grid, const FragmentList& fragments, GLuint first_face)
+{
+    lists_.sums.bind(GL_SHADER_STORAGE_BUFFER, shared::kSumBinding);
+    lists_.face_index.bind_image(0, 0, GL_READ_ONLY);
+    accumulate_.run(scene, grid, fragments, {}, first_face);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void VoxelFaces::divide(const VoxelGrid& grid, GLuint first_face, GLuint count)
+{
+    grid.bind();
+    bind();
+    lists_.sums.bind(GL_SHADER_STORAGE_BUFFER, shared::kSumBinding);
+    resolve_.set("first_face", first_face);
+    resolve_.set("face_count", count);
+    resolve_.use();
+    gl::dispatch_items(count, 64);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void VoxelFaces::bind() const
 {
     statistics_->bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelCounterBinding);
-    voxel_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelListBinding);
-    face_list_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceListBinding);
-    faces_.bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceBinding);
-    face_index_.bind(shared::kFaceIndexUnit);
+    lists_.voxel_list.bind(GL_SHADER_STORAGE_BUFFER, shared::kVoxelListBinding);
+    lists_.face_list.bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceListBinding);
+    lists_.faces.bind(GL_SHADER_STORAGE_BUFFER, shared::kFaceBinding);
+    lists_.face_index.bind(shared::kFaceIndexUnit);
 }
 
 std::vector<gl::Resource> VoxelFaces::resources() const
 {
-    return {face_index_.resource(), voxel_list_.resource(), face_list_.resource(), sums_.resource(),
-            faces_.resource(),      block_counts_.resource()};
+    return {lists_.face_index.resource(), lists_.voxel_list.resource(), lists_.face_list.resource(), lists_.sums.resource(),
+            lists_.faces.resource(),      block_counts_.resource()};
 }
 
 FaceViewPass::FaceViewPass(gl::Shaders& shaders)

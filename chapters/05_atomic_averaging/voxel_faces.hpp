@@ -15,9 +15,9 @@ class FragmentPrograms {
 public:
     // `shaders` must outlive it.
     FragmentPrograms(gl::Shaders& shaders, const std::string& file) : shaders_(&shaders), file_(file) {}
-    // `more`: defines beside those of the materials.
-    void run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
-             const gl::Defines& more = {});
+    // `more`: defines beside those of the materials. `first_face`: for programs that leave out the faces before it.
+    void run(const GpuScene& scene, const VoxelGrid& grid, const FragmentList& fragments, const gl::Defines& more = {},
+             GLuint first_face = 0);
 
 private:
     const gl::Program& of(const GpuScene& scene, std::size_t material, const gl::Defines& more);
@@ -29,7 +29,23 @@ private:
 // What the programs that average are made without where the scene has none of it.
 std::vector<Need> voxel_material_needs(const GpuScene& scene);
 
-// Lists of what is occupied. Passes over voxels work on these instead of on the whole grid.
+// Lists of what is occupied, and means. Passes over voxels work on these instead of on the whole grid.
+struct FaceLists {
+    gl::Texture face_index;              // r32ui, grid size: first face << 6 | mask
+    gl::Buffer voxel_list;               // uint a voxel: pack_voxel()
+    gl::Buffer face_list;                // uint a face: pack_voxel() | face << 27
+    gl::Buffer sums;                     // 2 kSumCount words a face
+    gl::Buffer faces;                    // shared::VoxelFace a face
+    gl::Buffer face_groups, voxel_groups;  // indirect dispatch of 64 a work group
+    shared::VoxelStatistics counted{};   // the same is in the voxelizer's statistics_buffer()
+    // The first `kept` faces are where they are as long as `order` stays the same.
+    GLuint kept = 0;
+    Revision order = 0;
+    void count_groups();                 // face_groups and voxel_groups from `counted`
+};
+// Bytes of a face in FaceLists::sums.
+constexpr std::size_t kBytesOfSums = 2 * shared::kSumCount * sizeof(GLuint);
+
 class VoxelFaces {
 public:
     // `shaders` and `voxelizer` must outlive it.
@@ -41,19 +57,34 @@ public:
     // `voxelizer`: the one of the constructor.
     bool run(const GpuScene& scene, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
 
+    // Two steps of run(), for some of the faces of the lists: adds these fragments to the sums of those in faces from
+    // `first_face` on; divides the sums of `count` faces from there on.
+    void add(const GpuScene& scene, const VoxelGrid& grid, const FragmentList& fragments, GLuint first_face);
+    void divide(const VoxelGrid& grid, GLuint first_face, GLuint count);
+
     // Changes whenever the lists or the means do.
     Revision revision() const { return revision_; }
-    std::size_t voxel_count() const { return counted_.voxels; }
-    std::size_t face_count() const { return counted_.faces; }
-    const shared::VoxelStatistics& counted() const { return counted_; }
+    std::size_t voxel_count() const { return lists_.counted.voxels; }
+    std::size_t face_count() const { return lists_.counted.faces; }
+    const shared::VoxelStatistics& counted() const { return lists_.counted; }
+    GLuint kept() const { return lists_.kept; }
+    Revision order() const { return lists_.order; }
+    // All of it, for who puts in or takes out voxels; counts up revision().
+    FaceLists& edit()
+    {
+        ++revision_;
+        return lists_;
+    }
 
-    const gl::Texture& face_index() const { return face_index_; }      // r32ui, grid size: first face << 6 | mask
-    const gl::Buffer& voxel_list() const { return voxel_list_; }       // uint a voxel: pack_voxel()
-    const gl::Buffer& face_list() const { return face_list_; }         // uint a face: pack_voxel() | face << 27
-    const gl::Buffer& faces() const { return faces_; }                 // shared::VoxelFace a face
+    const gl::Texture& face_index() const { return lists_.face_index; }
+    const gl::Buffer& voxel_list() const { return lists_.voxel_list; }
+    const gl::Buffer& face_list() const { return lists_.face_list; }
+    const gl::Buffer& faces() const { return lists_.faces; }
     const gl::Buffer& statistics_buffer() const { return *statistics_; }
-    const gl::Buffer& face_groups() const { return face_groups_; }     // indirect dispatch: 64 faces a work group
-    const gl::Buffer& voxel_groups() const { return voxel_groups_; }   // indirect dispatch: 64 voxels a work group
+    const gl::Buffer& face_groups() const { return lists_.face_groups; }
+    const gl::Buffer& voxel_groups() const { return lists_.voxel_groups; }
+    // Frees the sums, of which the means are all that the light needs; the next run makes them anew.
+    void free_scratch() { lists_.sums = {}; }
     std::vector<gl::Resource> resources() const;
 
     // kVoxelCounterBinding, kVoxelListBinding, kFaceListBinding, kFaceBinding, kFaceIndexUnit.
@@ -64,10 +95,9 @@ private:
     void make_lists(const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer);
     gl::Program count_blocks_, scan_blocks_, write_list_, resolve_;
     FragmentPrograms accumulate_;
-    gl::Texture face_index_;
-    gl::Buffer block_counts_, voxel_list_, face_list_, sums_, faces_, face_groups_, voxel_groups_;
+    FaceLists lists_;
+    gl::Buffer block_counts_;
     const gl::Buffer* statistics_;  // of the voxelizer
-    shared::VoxelStatistics counted_{};
     MadeFrom<Revision> made_from_;
     Revision revision_ = 0;
 };

@@ -46,7 +46,7 @@ try {
     app.each_frame([&] {
         // snippet: frame
         // What the lights see, unless rays through the voxels are to tell.
-        if (shading_params.voxel_shadows == int(VoxelShadows::map))
+        if (shading_params.voxel_shadows == VoxelShadows::map)
             app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // Triangles -> occupied voxels -> list of faces with their mean material.

@@ -22,8 +22,8 @@ bool VoxelShading::run(const GpuScene& scene, const VoxelGrid& grid, const Conse
         radiance_ = gl::Buffer("face radiance", faces.face_count() * sizeof(glm::vec4));
         visibility_ = gl::Buffer("face visibility", faces.face_count() * sizeof(GLuint));
     }
-    const gl::Program& program = program_.with({{"SHADOWS", std::to_string(params.voxel_shadows)},
-                                                {"DIRECTIONAL_LAMBERT", std::to_string(params.voxel_lambert)}});
+    const gl::Program& program = program_.with({{"SHADOWS", std::to_string(int(params.voxel_shadows))},
+                                                {"DIRECTIONAL_LAMBERT", std::to_string(int(params.voxel_lambert))}});
     program.use();
     grid.bind();
     faces.bind();

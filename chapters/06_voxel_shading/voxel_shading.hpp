@@ -7,12 +7,13 @@
 namespace conebook {
 
 enum class VoxelShadows : int { none = 0, map = 1, hard_ray = 2, soft_ray = 3 };
+enum class VoxelLambert : int { lambert = 0, directional = 1 };
 
 struct VoxelShadingParams {
     // map: chapter 03's shadow maps; hard_ray, soft_ray: rays through the voxels, for comparison.
-    int voxel_shadows = int(VoxelShadows::map);
+    VoxelShadows voxel_shadows = VoxelShadows::map;
     // lambert: max(n.l, 0) of the mean normal; directional: its axes one by one (Villegas 2016).
-    int voxel_lambert = 0;
+    VoxelLambert voxel_lambert = VoxelLambert::lambert;
     // soft_ray: distance in voxels at which one hit still blocks everything, 0.1 .. 100.
     float soft_sharpness = 4.0f;
     bool operator==(const VoxelShadingParams&) const = default;

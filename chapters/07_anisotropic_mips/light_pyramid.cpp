@@ -19,20 +19,6 @@ void add_parameters(ParameterTable& table, PyramidViewParams& params)
               "direction that pyramid views show");
 }
 
-namespace {
-
-const gl::Defines kSplitCoverage = {{"SPLIT_COVERAGE", "1"}};
-
-gl::Defines storing_defines(const PyramidParams& params)
-{
-    gl::Defines defines{{"DIRECTIONS", std::to_string(params.directions)}, {"FORMAT", std::to_string(params.format)}};
-    if (LightFormat(params.format) == LightFormat::r11g11b10f)
-        defines.insert(kSplitCoverage.begin(), kSplitCoverage.end());
-    return defines;
-}
-
-}  // namespace
-
 OccupiedLevels::OccupiedLevels(gl::Shaders& shaders)
     : parents_(shaders.load({"07_anisotropic_mips/occupied_parents.comp"}))
 {
@@ -80,8 +66,35 @@ void OccupiedLevels::dispatch(const gl::Program& program, int level, int items_o
     glDispatchComputeIndirect(GLintptr(std::size_t(items_of) * sizeof(glm::uvec4)));
 }
 
-LightPyramid::LightPyramid(gl::Shaders& shaders)
-    : unit_(shaders, {"07_anisotropic_mips/light_unit.comp"}),
+GLenum texel_format(LightFormat format)
+{
+    constexpr GLenum kFormats[] = {GL_RGBA16F, GL_RGBA8, GL_R11F_G11F_B10F};
+    return kFormats[int(format)];
+}
+
+void fit_light_atlas(LightTexels& texels, const VoxelGrid& grid, LightFormat format)
+{
+    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
+    const auto fit = [&](gl::Texture& texture, const char* label, GLenum kind) {
+        if (texture && texture.size() == size && texture.levels() == grid.levels() && texture.format() == kind) return;
+        texture = gl::texture_3d(label, kind, size, grid.levels());
+        texture.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
+    };
+    fit(texels.light, "light pyramid", texel_format(format));
+    texels.light.clear();
+    if (format == LightFormat::r11g11b10f) {
+        fit(texels.coverage, "coverage pyramid", GL_R8);
+        texels.coverage.clear();
+    } else {
+        texels.coverage = {};
+    }
+    texels.defines.clear();
+    texels.index.clear();
+}
+
+LightPyramid::LightPyramid(gl::Shaders& shaders, LightStorage storage)
+    : storage_(std::move(storage)),
+      unit_(shaders, {"07_anisotropic_mips/light_unit.comp"}),
       base_(shaders, {"07_anisotropic_mips/light_base.comp"}),
       next_level_(shaders, {"07_anisotropic_mips/light_level.comp"}),
       occupied_(shaders),
@@ -89,47 +102,40 @@ LightPyramid::LightPyramid(gl::Shaders& shaders)
 {
 }
 
-void LightPyramid::prepare(const VoxelGrid& grid, const VoxelFaces& faces, LightFormat format)
+void LightPyramid::prepare(const VoxelGrid& grid, const VoxelFaces& faces, const PyramidParams& params)
 {
-    if (!prepared_for_.differs(faces.revision(), format)) return;
-    constexpr GLenum kFormats[] = {GL_RGBA16F, GL_RGBA8, GL_R11F_G11F_B10F};
-    const glm::ivec3 size = grid.size() * glm::ivec3(shared::kFaceCount, 1, 1);
-    const auto fit = [&](gl::Texture& texture, const char* label, GLenum texels) {
-        if (texture && texture.size() == size && texture.levels() == grid.levels() && texture.format() == texels)
-            return;
-        texture = gl::texture_3d(label, texels, size, grid.levels());
-        texture.set_filter(GL_LINEAR_MIPMAP_NEAREST, GL_LINEAR);
-    };
-    fit(light_, "light pyramid", kFormats[int(format)]);
-    light_.clear();
-    if (format == LightFormat::r11g11b10f) {
-        fit(coverage_, "coverage pyramid", GL_R8);
-        coverage_.clear();
-    } else {
-        coverage_ = {};
-    }
+    if (!prepared_for_.differs(faces.revision(), params)) return;
+    const LightFormat format = params.format;
+    occupied_.run(grid, faces);
+    if (params.storage == VoxelStorage::dense)
+        fit_light_atlas(texels_, grid, format);
+    else
+        storage_(texels_, grid, faces, occupied_, params);
     if (format != format_) scale_ = gl::Buffer("light scale", std::vector{glm::vec4(1.0f)});
     format_ = format;
-    occupied_.run(grid, faces);
 }
 
 void LightPyramid::bind() const
 {
-    light_.bind(GLuint(shared::kLightAtlasUnit));
-    if (coverage_) coverage_.bind(GLuint(shared::kCoverageAtlasUnit));
+    texels_.light.bind(GLuint(shared::kLightAtlasUnit));
+    if (texels_.coverage) texels_.coverage.bind(GLuint(shared::kCoverageAtlasUnit));
+    for (const auto& [unit, texture] : texels_.index) texture->bind(unit);
     scale_.bind(GL_UNIFORM_BUFFER, shared::kPyramidBlock);
 }
 
 void LightPyramid::bind_as_emission() const
 {
-    light_.bind(GLuint(shared::kEmissionAtlasUnit));
+    texels_.light.bind(GLuint(shared::kEmissionAtlasUnit));
     scale_.bind(GL_UNIFORM_BUFFER, shared::kEmissionPyramidBlock);
 }
 
 void LightPyramid::bind_level(int level) const
 {
-    light_.bind_image(0, level, GL_WRITE_ONLY);
-    if (coverage_) coverage_.bind_image(1, level, GL_WRITE_ONLY);
+    const auto bind_image = [level](const gl::Texture& texture, GLuint unit) {
+        texture.bind_image(unit, std::min(level, texture.levels() - 1), GL_WRITE_ONLY);
+    };
+    bind_image(texels_.light, 0);
+    if (texels_.coverage) bind_image(texels_.coverage, 1);
 }
 
 bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl::Buffer& reflected, Revision revision,
@@ -137,8 +143,10 @@ bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
 {
     if (!made_from_.differs(faces.revision(), reflected.id(), revision, part, params)) return false;
     ++revision_;
-    prepare(grid, faces, LightFormat(params.format));
-    const gl::Defines storing = storing_defines(params);
+    prepare(grid, faces, params);
+    gl::Defines storing{{"DIRECTIONS", std::to_string(int(params.directions))},
+                         {"FORMAT", std::to_string(int(params.format))}};
+    storing.merge(defines());
     constexpr GLbitfield kWrittenImage = GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
     grid.bind();
     faces.bind();
@@ -177,7 +185,9 @@ bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
 
 gl::Defines LightPyramid::defines() const
 {
-    return format_ == LightFormat::r11g11b10f ? kSplitCoverage : gl::Defines{};
+    gl::Defines all = texels_.defines;
+    if (format_ == LightFormat::r11g11b10f) all["SPLIT_COVERAGE"] = "1";
+    return all;
 }
 
 PyramidViewPass::PyramidViewPass(gl::Shaders& shaders)
@@ -197,7 +207,7 @@ const gl::Texture& PyramidViewPass::run(const VoxelGrid& grid, const gl::Texture
     pyramid.bind();
     const gl::Program& program = program_.with(pyramid.defines());
     program.set("level", std::min(level, grid.levels() - 1));
-    program.set("direction", params.direction);
+    program.set("direction", int(params.direction));
     program.set("show_coverage", show_coverage);
     program.set("with_emission", emission != nullptr);
     (emission != nullptr ? emission : &pyramid)->bind_as_emission();

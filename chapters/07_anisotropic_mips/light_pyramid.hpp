@@ -1,6 +1,10 @@
 // Six directional pyramids of the light in the voxels, filtered from the finest level up.
 #pragma once
 
+#include <functional>
+#include <utility>
+#include <vector>
+
 #include "06_voxel_shading/voxel_shading.hpp"
 
 namespace conebook {
@@ -15,12 +19,16 @@ enum class Directions : int { per_face = 0, anisotropic = 1, isotropic = 2 };
 // r11g11b10f: 5, 6 or 5 bits of precision for radiance, 8 for coverage.
 enum class LightFormat : int { rgba16f = 0, rgba8 = 1, r11g11b10f = 2 };
 
+// dense: a texel for every voxel; bricks: for the voxels that hold something (chapter 16).
+enum class VoxelStorage : int { dense = 0, bricks = 1 };
+
 // What of the light that leaves the faces a pyramid holds; their coverage it always does.
 enum class LightPart { all, reflected, emitted, none };
 
 struct PyramidParams {
-    int directions = int(Directions::per_face);
-    int format = int(LightFormat::rgba16f);
+    Directions directions = Directions::per_face;
+    LightFormat format = LightFormat::rgba16f;
+    VoxelStorage storage = VoxelStorage::dense;
     bool operator==(const PyramidParams&) const = default;
 };
 void add_parameters(ParameterTable& table, PyramidParams& params);
@@ -43,9 +51,26 @@ private:
     std::vector<GLuint> begin_;  // of each level's part of the lists
 };
 
+// Where a pyramid's texels lie.
+struct LightTexels {
+    gl::Texture light, coverage;  // coverage: of format r11g11b10f alone, r8
+    gl::Defines defines;          // LIGHT_STORAGE: the file by which shaders find them, instead of light_atlas.glsl
+    std::vector<std::pair<GLuint, const gl::Texture*>> index;  // what else it reads, by texture unit; not owned
+};
+
+// Makes room for all texels of the occupied voxels, empty, in what `texels` has already where that fits.
+using LightStorage = std::function<void(LightTexels& texels, const VoxelGrid& grid, const VoxelFaces& faces,
+                                        const OccupiedLevels& occupied, const PyramidParams& params)>;
+
+// An atlas: six times the grid's width (face * size.x + x), all levels of the grid, occupied or not.
+void fit_light_atlas(LightTexels& texels, const VoxelGrid& grid, LightFormat format);
+// What a texture of that format is made with.
+GLenum texel_format(LightFormat format);
+
 class LightPyramid {
 public:
-    explicit LightPyramid(gl::Shaders& shaders);
+    // `storage`: for params.storage > 0.
+    explicit LightPyramid(gl::Shaders& shaders, LightStorage storage = {});
 
     // All levels from what the faces reflect (vec4 a face: rgb in W/(sr m^2), of that revision) and emit, `part` of it; if
     // any of that has changed. Says whether it has.
@@ -60,32 +85,34 @@ public:
     LightFormat format() const { return format_; }  // of the last run
     // For programs that include 07_anisotropic_mips/pyramid.glsl.
     gl::Defines defines() const;
-    // Six times the grid's width (face * size.x + x), all levels of the grid; see 07_anisotropic_mips/pyramid.glsl.
-    const gl::Texture& light() const { return light_; }
-    // r8 of the same size, of format r11g11b10f alone.
-    const gl::Texture& coverage() const { return coverage_; }
+    const gl::Texture& light() const { return texels_.light; }
+    const gl::Texture& coverage() const { return texels_.coverage; }
     std::vector<gl::Resource> resources() const
     {
-        return {light_.resource(), coverage_.resource(), occupied_.lists().resource()};
+        return {texels_.light.resource(), texels_.coverage.resource(), occupied_.lists().resource()};
     }
 
 private:
     // When other voxels become occupied, or texels are to be others: empties all levels and lists what they will hold.
-    void prepare(const VoxelGrid& grid, const VoxelFaces& faces, LightFormat format);
+    void prepare(const VoxelGrid& grid, const VoxelFaces& faces, const PyramidParams& params);
     void bind_level(int level) const;
-    MadeFrom<Revision, LightFormat> prepared_for_;  // faces
+    LightStorage storage_;
+    MadeFrom<Revision, PyramidParams> prepared_for_;  // faces
     // Faces, what they reflect: which buffer, for each counts its own revisions.
     MadeFrom<Revision, GLuint, Revision, LightPart, PyramidParams> made_from_;
     Revision revision_ = 0;
     LightFormat format_ = LightFormat::rgba16f;
     gl::ProgramVariants unit_, base_, next_level_;
     OccupiedLevels occupied_;
-    gl::Texture light_, coverage_;
+    LightTexels texels_;
     gl::Buffer scale_;
 };
 
+// Whose light a view shows: what left towards one side, or towards the camera.
+enum class PyramidSide : int { minus_x, plus_x, minus_y, plus_y, minus_z, plus_z, seen };
+
 struct PyramidViewParams {
-    int direction = 6;  // -x +x -y +y -z +z, or the side that is seen
+    PyramidSide direction = PyramidSide::seen;
 };
 void add_parameters(ParameterTable& table, PyramidViewParams& params);
 

@@ -1,5 +1,7 @@
 #include "07_anisotropic_mips/lit_voxels.hpp"
 
+#include <utility>
+
 namespace conebook {
 
 void add_parameters(ParameterTable& table, LitVoxelParams& params)
@@ -11,24 +13,40 @@ void add_parameters(ParameterTable& table, LitVoxelParams& params)
     table.add("update", params.update, {"on_change", "always"}, "when passes run that do not depend on the camera");
 }
 
-LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params)
+LitVoxels::LitVoxels(gl::Shaders& shaders, const GpuScene& scene, const LitVoxelParams& params, LightStorage storage)
     : params_(params),
       grid_(scene.bounds(), params.grid, shared::kFaceCount),
       voxelizer_(shaders),
       faces_(shaders, voxelizer_),
       shading_(shaders),
-      pyramid_(shaders)
+      pyramid_(shaders, std::move(storage))
 {
+}
+
+bool LitVoxels::needs_occupancy() const
+{
+    const VoxelShadows shadows = params_.shading.voxel_shadows;
+    return params_.pyramid.storage == VoxelStorage::dense || shadows == VoxelShadows::hard_ray ||
+           shadows == VoxelShadows::soft_ray;
+}
+
+void LitVoxels::free_scratch()
+{
+    voxelizer_.free_scratch(!needs_occupancy());
+    faces_.free_scratch();
+}
+
+void LitVoxels::voxelize(App& app, const GpuScene& scene)
+{
+    grid_.fit(scene.bounds(), params_.grid);
+    const bool missing = needs_occupancy() && !voxelizer_.occupancy();
+    if (params_.update == Update::always || missing) voxelizer_.forget();
+    app.pass("voxelize", Scope::scene, [&] { return voxelizer_.run(scene, grid_, params_.voxelizer); });
+    app.pass("average", Scope::scene, [&] { return faces_.run(scene, grid_, voxelizer_); });
 }
 
 void LitVoxels::shade(App& app, const GpuScene& scene, const ShadowMaps& shadow_maps)
 {
-    // Triangles -> occupied voxels -> mean material of their faces; all that follows from them runs when they do.
-    grid_.fit(scene.bounds(), params_.grid);
-    if (params_.update == int(Update::always)) voxelizer_.forget();
-    app.pass("voxelize", Scope::scene, [&] { return voxelizer_.run(scene, grid_, params_.voxelizer); });
-    app.pass("average", Scope::scene, [&] { return faces_.run(scene, grid_, voxelizer_); });
-    // Material and lights -> radiance of the faces.
     app.pass("voxel shading", Scope::light,
              [&] { return shading_.run(scene, grid_, voxelizer_, faces_, shadow_maps, params_.shading); });
 }
@@ -68,7 +86,7 @@ std::vector<Count> LitVoxels::counts() const
             {"voxel size", grid_.voxel_size_m(), "m"},
             {"occupied voxels", double(counted.voxels), ""},
             {"occupied faces", double(counted.faces), ""},
-            {"fragments", double(voxelizer_.fragment_count()), ""},
+            {"fragments", double(voxelizer_.fragments().count()), ""},
             {"triangles without area", double(counted.degenerate), ""}};
 }
 

@@ -39,10 +39,11 @@ try {
     app.each_frame([&] {
         // snippet: frame
         // What the lights see, for the voxels.
-        if (voxel_params.shading.voxel_shadows == int(VoxelShadows::map))
+        if (voxel_params.shading.voxel_shadows == VoxelShadows::map)
             app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
+        voxels.voxelize(app, scene);
         voxels.shade(app, scene, shadow_maps);
         voxels.filter(app);
         // end snippet

@@ -6,8 +6,10 @@ namespace conebook {
 
 void add_parameters(ParameterTable& table, CompositeParams& params)
 {
-    table.add("bounce_strength", params.bounce_strength, 0.0, 10.0, "", "artistic factor on indirect light; 1 is right");
+    table.add("bounce_strength", params.bounce_strength, 0.0, 10.0, "",
+              "artistic factor on indirect light; 1 is right");
     table.add("ao_strength", params.ao_strength, 0.0, 1.0, "", "artistic occlusion of indirect light; 0 is right");
+    table.add("ao_on_direct", params.ao_on_direct, "ao_strength counts for direct light, too; off is right");
 }
 
 LightParts parts_of_view(const std::string& view)
@@ -40,7 +42,9 @@ const gl::Texture& CompositePass::run(const GBuffer& g_buffer, const gl::Texture
                                     specular != nullptr ? parts.specular : 0.0f, parts.emission));
     program_.set("show_ambient", parts.ambient);
     program_.set("bounce_strength", params.bounce_strength);
-    program_.set("ao_strength", params.ao_strength);
+    const float ao_strength = gathered != nullptr ? params.ao_strength : 0.0f;  // without cones nothing is known
+    program_.set("ao_strength", ao_strength);
+    program_.set("direct_ao_strength", params.ao_on_direct ? ao_strength : 0.0f);
     program_.set("sky_radiance", glm::vec3(sky_radiance));
     gl::draw_pixels(program_, framebuffer_, no_vertices_, g_buffer.size());
     return color_;

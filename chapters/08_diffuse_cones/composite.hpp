@@ -16,6 +16,9 @@ LightParts parts_of_view(const std::string& view);
 struct CompositeParams {
     float bounce_strength = 1.0f;  // artistic factor on indirect light, 0 .. 10; 1 is right
     float ao_strength = 0.0f;      // artistic: indirect light times mix(1, ambient, this), 0 .. 1; 0 is right
+    // The same on direct light, which is as wrong as it looks: what occludes nothing of a lamp darkens its light (Villegas
+    // 2016, section 3.6.5). For comparison.
+    bool ao_on_direct = false;
     bool operator==(const CompositeParams&) const = default;
 };
 void add_parameters(ParameterTable& table, CompositeParams& params);

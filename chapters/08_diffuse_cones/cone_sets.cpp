@@ -5,6 +5,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "scene/radical_inverse.hpp"
+
 namespace conebook {
 
 namespace {
@@ -33,19 +35,17 @@ std::vector<Ring> rings_of(int count)
 
 double first_moment_of(double cos_tilt, double half_angle_rad) { return cos_tilt * (1.0 + std::cos(half_angle_rad)) / 2; }
 
-// A cone's solid angle 2 pi (1 - cos a) is its share of the hemisphere's 2 pi; six are the usual 60 degrees.
-// One cone alone would be the whole hemisphere; it is held to 120 degrees.
-double default_half_angle(int count)
-{
-    return count == 6 ? kPi / 6 : std::min(std::acos(1.0 - 1.0 / count), kPi / 3);
-}
+// normal + x * right + y * up (Villegas 2016, listing 21): the height of the direction itself is dropped.
+glm::vec4 added_to_normal(const glm::vec4& cone) { return {glm::normalize(glm::vec3(cone.x, cone.y, 1.0f)), cone.w}; }
 
-// Van der Corput's radical inverse in base 2.
-double radical_inverse(unsigned bits)
+// Of each of `sets` times `count` cones. An aperture of 0 is as the set asks: the cones of many sets lie close, so narrow
+// ones do. Those of a single set fill the hemisphere: a cone's solid angle 2 pi (1 - cos a) is its share of 2 pi; six are
+// the usual 60 degrees, and one alone, which would be the whole hemisphere, is held to 120.
+double half_angle(int count, double aperture_rad, int sets)
 {
-    double value = 0.0;
-    for (double digit = 0.5; bits != 0; bits >>= 1, digit *= 0.5) value += (bits & 1u) * digit;
-    return value;
+    if (aperture_rad > 0.0) return 0.5 * aperture_rad;
+    if (sets > 1) return kPi / 60;  // 3 degrees
+    return count == 6 ? kPi / 6 : std::min(std::acos(1.0 - 1.0 / count), kPi / 3);
 }
 
 }  // namespace
@@ -59,8 +59,7 @@ double first_moment(const ConeSet& set)
 
 ConeSet make_cone_set(int count, ConeTable table, double aperture_rad)
 {
-    const double half = aperture_rad > 0.0 ? 0.5 * aperture_rad : default_half_angle(count);
-
+    const double half = half_angle(count, aperture_rad, 1);
     const std::vector<Ring> rings = rings_of(count);
     std::vector<double> cos_tilts;
     double inner_sin2 = 0.0;  // sin^2 at the ring's inner edge = weight within it
@@ -71,7 +70,7 @@ ConeSet make_cone_set(int count, ConeTable table, double aperture_rad)
         const double mean_cos = 2.0 / 3.0 * (c0 * c0 * c0 - c1 * c1 * c1) / (c0 * c0 - c1 * c1);
         const bool pole = inner_sin2 == 0.0 && ring.cones == 1;
         const double tilt_of_thesis = count == 6 ? (pole ? 1.0 : 0.5) : (pole ? 1.0 : mean_cos);
-        cos_tilts.push_back(table == ConeTable::thesis || pole ? tilt_of_thesis : mean_cos);
+        cos_tilts.push_back(table != ConeTable::tilted || pole ? tilt_of_thesis : mean_cos);
         inner_sin2 = outer_sin2;
     }
     if (table == ConeTable::tilted) {
@@ -94,19 +93,21 @@ ConeSet make_cone_set(int count, ConeTable table, double aperture_rad)
             const double sin_tilt = std::sqrt(std::max(0.0, 1.0 - cos_tilts[i] * cos_tilts[i]));
             set.cones.emplace_back(sin_tilt * std::cos(phi), sin_tilt * std::sin(phi), cos_tilts[i], rings[i].weight);
         }
+    if (table == ConeTable::thesis_added)
+        for (glm::vec4& cone : set.cones) cone = added_to_normal(cone);
     return set;
 }
 
 ConeSet make_interleaved_cones(int count, ConeTable table, double aperture_rad, int sets)
 {
     if (sets == 1) return make_cone_set(count, table, aperture_rad);
-    const double half = aperture_rad > 0.0 ? 0.5 * aperture_rad : default_half_angle(count);
+    const double half = half_angle(count, aperture_rad, sets);
     const std::vector<Ring> rings = rings_of(count);
     ConeSet all;
     all.half_angle_rad = float(half);
     for (int set = 0; set < sets; ++set) {
         // A point of the unit square for this set (Hammersley): where in their cells its cones lie.
-        const double u = (set + 0.5) / sets, v = radical_inverse(unsigned(set)) + 0.5 / sets;
+        const double u = (set + 0.5) / sets, v = radical_inverse(2, unsigned(set)) + 0.5 / sets;
         double inner_sin2 = 0.0;
         for (const Ring& ring : rings) {
             for (int k = 0; k < ring.cones; ++k) {
@@ -119,7 +120,9 @@ ConeSet make_interleaved_cones(int count, ConeTable table, double aperture_rad, 
             inner_sin2 += ring.cones * ring.weight;
         }
     }
-    if (table == ConeTable::thesis) return all;
+    if (table == ConeTable::thesis_added)
+        for (glm::vec4& cone : all.cones) cone = added_to_normal(cone);
+    if (table != ConeTable::tilted) return all;
     // Raise the cones a little, for wide ones see more of the horizon than their axis: cos -> cos^e keeps the pole and
     // the horizon where they are; e by bisection so that the moment becomes 2/3, or as near to it as wide cones allow.
     double low = 0.0, high = 1.0;

@@ -10,15 +10,20 @@ namespace conebook {
 void add_parameters(ParameterTable& table, ConeParams& params)
 {
     table.add_values("cones", params.cones, {1, 5, 6, 9, 16, 32}, "diffuse cones over the hemisphere");
-    table.add("cone_table", params.cone_table, {"tilted", "thesis"}, "tilts that keep the cosine, or those published");
+    table.add("cone_table", params.cone_table, {"tilted", "thesis", "thesis_added"},
+              "tilts that keep the cosine, those published, or those of the published code");
     table.add("interleave", params.interleave, {"off", "on", "every_pixel"},
               "neighbouring pixels have different cones and share them, or every pixel has all");
     table.add("aperture", params.aperture, 0.0, 179.0, "deg", "full aperture of a diffuse cone; 0: as the set asks");
     table.add("walk", params.walk, {"leap", "march"}, "cones leap over empty space, or march through it in steps");
     table.add("step", params.step, 0.05, 4.0, "", "march: step over the cone's diameter");
     table.add("start_offset", params.start_offset, 0.0, 8.0, "voxels", "from the surface to the cone's start");
-    table.add("transmittance", params.transmittance, {"linear", "exponential"}, "march: how coverages add up");
+    table.add("transmittance", params.transmittance, {"linear", "exponential", "per_sample"},
+              "march: how coverages add up");
+    table.add("side_weights", params.side_weights, {"projected", "squared"}, "march: of a voxel's sides, |d| or d^2");
     table.add("ao_falloff", params.ao_falloff, 0.0, 100.0, "1/m", "ambient occlusion: 1 / (1 + this * distance)");
+    table.add("range_diffuse", params.range_diffuse, 0.0, 1e6, "m", "how far diffuse cones see; 0: to the bounds");
+    table.add("range_ao", params.range_ao, 0.0, 1e6, "m", "how far ambient occlusion sees; 0: to the bounds");
     table.add("sky", params.sky, 0.0, 1e4, "W/sr/m2", "radiance of what cones see that leave the grid");
 }
 
@@ -27,10 +32,10 @@ void add_parameters(ParameterTable& table, DiffuseConeParams& params)
     table.add_values("gather_scale", params.gather_scale, {1, 2, 4}, "one of so many pixels along a side gathers");
 }
 
-gl::Defines cone_defines(const ConeParams& params, const LightPyramid& pyramid)
+gl::Defines cone_defines(const ConeParams& params, const ConeVolumes& volumes)
 {
-    gl::Defines defines = {{"MARCH", params.walk == int(ConeWalk::march) ? "1" : "0"}};
-    defines.merge(pyramid.defines());
+    gl::Defines defines = volumes.defines();
+    defines["MARCH"] = params.walk == ConeWalk::march ? "1" : "0";
     return defines;
 }
 
@@ -38,7 +43,10 @@ void set_cones(const gl::Program& program, const ConeParams& params)
 {
     program.set("step_factor", params.step);
     program.set("ao_falloff", params.ao_falloff);
-    program.set("transmittance_model", params.transmittance);
+    program.set("range_diffuse", params.range_diffuse);
+    program.set("range_ao", params.range_ao);
+    program.set("transmittance_model", int(params.transmittance));
+    program.set("squared_weights", params.side_weights == SideWeights::squared);
     program.set("sky_radiance", glm::vec3(params.sky));
 }
 
@@ -53,12 +61,10 @@ double fraction(double x) { return x - std::floor(x); }
 void ConeDirections::update(const ConeParams& params, int sample, int sets)
 {
     if (!made_from_.differs(params, sample, sets)) return;
-    const bool many_sets = params.interleave != int(Interleave::off);
-    constexpr float kInterleavedAperture_deg = 6.0f;
-    const float aperture_deg = params.aperture == 0.0f && many_sets ? kInterleavedAperture_deg : params.aperture;
-    ConeSet set = make_interleaved_cones(params.cones, ConeTable(params.cone_table), glm::radians(double(aperture_deg)),
+    const bool many_sets = params.interleave != Interleave::off;
+    ConeSet set = make_interleaved_cones(params.cones, params.cone_table, glm::radians(double(params.aperture)),
                                          many_sets ? sets : 1);
-    sets_ = params.interleave == int(Interleave::on) ? sets : 1;
+    sets_ = params.interleave == Interleave::on ? sets : 1;
     cones_per_set_ = int(set.cones.size()) / sets_;
     // Every further picture turns the cones about the normal, and moves the thresholds.
     const double turn = 2.0 * M_PI * fraction(sample * kGoldenRatio);
@@ -67,7 +73,7 @@ void ConeDirections::update(const ConeParams& params, int sample, int sets)
         const glm::dvec2 xy(cone);
         cone.x = float(std::cos(turn) * xy.x - std::sin(turn) * xy.y);
         cone.y = float(std::sin(turn) * xy.x + std::cos(turn) * xy.y);
-        if (params.interleave == int(Interleave::every_pixel)) cone.w /= float(sets);
+        if (params.interleave == Interleave::every_pixel) cone.w /= float(sets);
     }
     tan_half_aperture_ = std::tan(set.half_angle_rad);
     constexpr std::size_t kMostCones = 1024;  // size of the uniform block
@@ -93,10 +99,17 @@ void ConeVolumes::bind() const
     walk.bind();
 }
 
-DiffuseCones::DiffuseCones(gl::Shaders& shaders)
+gl::Defines ConeVolumes::defines() const
+{
+    gl::Defines all = pyramid.defines();
+    all.insert(walk.defines().begin(), walk.defines().end());
+    return all;
+}
+
+DiffuseCones::DiffuseCones(gl::Shaders& shaders, const std::string& folder)
     : points_(shaders),
-      gather_(shaders, {"common/fullscreen.vert", "08_diffuse_cones/gather.frag"}),
-      upsample_(shaders, {"common/fullscreen.vert", "08_diffuse_cones/upsample.frag"}),
+      gather_(shaders, {"common/fullscreen.vert", folder + "/gather.frag"}),
+      upsample_(shaders, {"common/fullscreen.vert", folder + "/upsample.frag"}),
       filter_(shaders)
 {
 }
@@ -105,14 +118,23 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes&
                                      const ConeDirections& directions, const ConeParams& cones,
                                      const DiffuseConeParams& params, int sample)
 {
+    const auto bind = [&](const gl::Program&) { volumes.bind(); };
+    return run(g_buffer, volumes.grid, bind, cone_defines(cones, volumes), directions, cones, params, sample);
+}
+
+const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const VoxelGrid& grid,
+                                     const std::function<void(const gl::Program&)>& bind, const gl::Defines& defines,
+                                     const ConeDirections& directions, const ConeParams& cones,
+                                     const DiffuseConeParams& params, int sample)
+{
     const bool share = directions.sets() > 1;
     // Where the points are that gather.
-    points_.run(g_buffer, volumes.grid, share ? params.gather_scale : 1, sample);
+    points_.run(g_buffer, grid, share ? params.gather_scale : 1, sample);
 
     // Every point gathers by its own set of cones.
     gl::fit_to_pixels(gathered_, gathered_framebuffer_, "gathered light", GL_RGBA32F, points_.size());
-    volumes.bind();
-    const gl::Program& gather = gather_.with(cone_defines(cones, volumes.pyramid));
+    const gl::Program& gather = gather_.with(defines);
+    bind(gather);
     points_.bind(gather);
     directions.bind(gather, cones);
     gl::draw_pixels(gather, gathered_framebuffer_, no_vertices_, points_.size());
@@ -123,7 +145,8 @@ const gl::Texture& DiffuseCones::run(const GBuffer& g_buffer, const ConeVolumes&
 
     // Pixels take from the points around them.
     gl::fit_to_pixels(light_, light_framebuffer_, "indirect diffuse light", GL_RGBA32F, g_buffer.size());
-    const gl::Program& upsample = upsample_.with(cone_defines(cones, volumes.pyramid));
+    const gl::Program& upsample = upsample_.with(defines);
+    bind(upsample);
     points_.bind(upsample);
     directions.bind(upsample, cones);
     filtered.bind(17);

@@ -51,6 +51,7 @@ try {
         app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
+        voxels.voxelize(app, scene);
         voxels.shade(app, scene, shadow_maps);
         voxels.filter(app);
 

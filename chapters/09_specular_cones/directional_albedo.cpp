@@ -2,29 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 
 #include "common/material_constants.glsl"
+#include "scene/radical_inverse.hpp"
 
 namespace conebook {
 
 namespace {
-
-// Van der Corput's radical inverse in base 2.
-double radical_inverse(std::uint32_t bits)
-{
-    double value = 0.0, digit = 0.5;
-    for (; bits != 0; bits >>= 1, digit *= 0.5) value += double(bits & 1u) * digit;
-    return value;
-}
 
 // Points spread evenly over the unit disc: a Hammersley set, by radius and angle.
 std::vector<glm::dvec2> disc_points(int count)
 {
     std::vector<glm::dvec2> points;
     for (int i = 0; i < count; ++i) {
-        const double r = std::sqrt((i + 0.5) / count), phi = 2.0 * std::numbers::pi * radical_inverse(std::uint32_t(i));
+        const double r = std::sqrt((i + 0.5) / count), phi = 2.0 * std::numbers::pi * radical_inverse(2, unsigned(i));
         points.emplace_back(r * std::cos(phi), r * std::sin(phi));
     }
     return points;

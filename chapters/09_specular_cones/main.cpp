@@ -58,6 +58,7 @@ try {
         app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids, and where rays may leap.
+        voxels.voxelize(app, scene);
         voxels.shade(app, scene, shadow_maps);
         voxels.filter(app);
         app.pass("walk volume", Scope::scene, [&] { return walk_volume.run(voxels.grid(), voxels.faces()); });

@@ -17,6 +17,8 @@ struct SpecularConeParams {
     // Voxels from the middle of the surface's own voxel to the cone's start, 0 .. 8: a narrow cone that starts nearer shows
     // the voxels of its own surface as a pattern.
     float specular_start = 1.5f;
+    // How far they see surfaces, m, 0 .. 1e6; 0: to the bounds.
+    float range_specular = 0.0f;
     bool operator==(const SpecularConeParams&) const = default;
 };
 void add_parameters(ParameterTable& table, SpecularConeParams& params);
@@ -30,6 +32,11 @@ public:
     const gl::Texture& run(const GBuffer& g_buffer, const ConeVolumes& volumes, const ConeParams& cones,
                            const SpecularConeParams& params, int sample = 0,
                            const std::string& folder = "09_specular_cones");
+    // The same through whatever the folder's programs read: `bind` binds it and sets its uniforms.
+    const gl::Texture& run(const GBuffer& g_buffer, const VoxelGrid& grid,
+                           const std::function<void(const gl::Program&)>& bind_volumes, const gl::Defines& defines,
+                           const ConeParams& cones, const SpecularConeParams& params, int sample,
+                           const std::string& folder);
     std::vector<gl::Resource> resources() const
     {
         return {lobe_light_.resource(), specular_.resource(), directional_albedo_.resource()};
@@ -39,9 +46,10 @@ public:
     void bind(const gl::Program& program, const ConeParams& cones, const SpecularConeParams& params, int sample) const;
 
 private:
+    void make_table();  // at the first run: scenes without a lobe have none
     gl::Shaders& shaders_;
     std::map<std::string, gl::ProgramVariants> trace_;  // by folder
-    gl::Program share_;
+    gl::ProgramVariants shares_;
     gl::VertexArray no_vertices_;
     gl::Texture directional_albedo_, lobe_light_, specular_;
     gl::Framebuffer lobe_framebuffer_, specular_framebuffer_;

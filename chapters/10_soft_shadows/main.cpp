@@ -18,7 +18,7 @@ try {
     ConeParams cone_params;
     CompositeParams composite_params;
     DisplayParams display_params;
-    shadow_params.shadows = int(ShadowMethod::cone);
+    shadow_params.shadows = ShadowMethod::cone;
     ParameterTable parameters =
         parameters_of(shadow_params, voxel_params, shadow_map_params, cone_params, composite_params, display_params);
 
@@ -42,10 +42,11 @@ try {
 
     app.each_frame([&] {
         // What the lights see, if pixels or voxels ask.
-        if (asks_shadow_maps(shadow_params) || voxel_params.shading.voxel_shadows == int(VoxelShadows::map))
+        if (asks_shadow_maps(shadow_params) || voxel_params.shading.voxel_shadows == VoxelShadows::map)
             app.pass("shadow maps", Scope::light, [&] { return shadow_maps.draw(scene, shadow_map_params); });
 
         // Triangles -> voxels -> radiance -> six pyramids.
+        voxels.voxelize(app, scene);
         voxels.shade(app, scene, shadow_maps);
         voxels.filter(app);
 

@@ -11,7 +11,7 @@ enum class ShadowMethod : int { map = 0, cone = 1, volume = 2 };
 
 struct SoftShadowParams {
     // map: chapter 03; cone: one cone a light; volume: the visibility of chapter 06 (first three lights), coarse.
-    int shadows = int(ShadowMethod::map);
+    ShadowMethod shadows = ShadowMethod::map;
     // Radius of point and spot lights in m, 0.001 .. 10: glTF's lights are points, so their size is given here.
     float light_radius = 0.05f;
     // Full angle of directional lights in degrees, 0.05 .. 60; the sun's is 0.53.
@@ -20,12 +20,14 @@ struct SoftShadowParams {
     // with about n. 12: of 12, 16, 21, 24 and 32 the one whose nine tested penumbrae all are within 10 % of the exact
     // width (0.90 to 1.08; with more, those of 3.5 voxels are up to 1.26, since the blur of the voxels adds to them).
     int shadow_cones = 12;
+    // How far cones to lights see what throws a shadow, m, 0 .. 1e6; 0: as far as the light is.
+    float range_shadow = 0.0f;
     bool operator==(const SoftShadowParams&) const = default;
 };
 void add_parameters(ParameterTable& table, SoftShadowParams& params);
 
 // Pixels look into the shadow maps.
-inline bool asks_shadow_maps(const SoftShadowParams& pixels) { return pixels.shadows == int(ShadowMethod::map); }
+inline bool asks_shadow_maps(const SoftShadowParams& pixels) { return pixels.shadows == ShadowMethod::map; }
 
 // Shadow cones and visibility volume: which of them these parameters ask for, in a scene with lights or without.
 std::vector<Need> soft_shadow_needs(const SoftShadowParams& params, bool has_lights);
@@ -39,12 +41,13 @@ public:
     const gl::Texture& run(const GBuffer& g_buffer, const GpuScene& scene, const ConeVolumes& volumes,
                            const VoxelFaces& faces, const VoxelShading& shading, const ShadowMaps& shadow_maps,
                            const ConeParams& cones, const SoftShadowParams& params, bool show_visibility);
+    // What run() does first where pixels ask for it.
+    void fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
     std::vector<gl::Resource> resources() const;
 
 private:
-    void fill_volume(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading);
     gl::ProgramVariants lighting_;
-    gl::Program fill_volume_;
+    gl::ProgramVariants fill_volume_;
     gl::VertexArray no_vertices_;
     gl::Texture visibility_volume_, color_;
     gl::Framebuffer framebuffer_;

@@ -18,7 +18,7 @@ const gl::Texture& EmitterLight::run(const GBuffer& g_buffer, const ConeVolumes&
 {
     if (!emitters.are_apart()) return gathered;
     const GatherPoints& points = cones.points();
-    gl::Defines defines = volumes.pyramid.defines();
+    gl::Defines defines = volumes.defines();
     defines.merge(emitters.defines());
 
     // Every point aims rays at a set of parts.

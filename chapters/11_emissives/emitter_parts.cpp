@@ -24,7 +24,6 @@ struct Piece {
 
 double luminance(const glm::vec3& color) { return glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), glm::dvec3(color)); }
 
-bool shines(const Material& m) { return m.unlit || m.emission != glm::vec3(0.0f); }
 bool has_texture(const Material& m)
 {
     return m.unlit || m.emission_texture.present() || m.alpha_mode == AlphaMode::mask;
@@ -145,7 +144,7 @@ std::vector<shared::EmitterTriangle> exact_triangles(const Scene& scene, const s
     std::vector<shared::EmitterTriangle> triangles;
     bool exact = true;
     for_each_triangle(scene, [&](const Draw& draw, std::uint32_t t, double area, const Material& m) {
-        if (!shines(m) || area == 0.0 || !exact) return;
+        if (!m.shines() || area == 0.0 || !exact) return;
         exact = !has_texture(m) && triangles.size() + (m.double_sided ? 2 : 1) <= EmitterParts::kMostTriangles;
         const TrianglePoint p = triangle_point(scene, draw, t, 0.0f, 0.0f);
         const auto corner = [&](const Vertex* v, float radiance) {
@@ -214,14 +213,14 @@ EmitterParts make_emitter_parts(const Scene& scene, const shared::GridData& grid
     for_each_triangle(scene, [&](const Draw&, std::uint32_t, double area_m2, const Material& m) {
         const double area = area_m2 / (double(grid.origin.w) * double(grid.origin.w));
         all_area += area;
-        if (shines(m)) (has_texture(m) ? textured_area : even_area) += area;
+        if (m.shines()) (has_texture(m) ? textured_area : even_area) += area;
     });
     EmitterParts result;
     if (even_area + textured_area == 0.0) return result;
     PieceMaker maker(scene, grid, std::sqrt(even_area / (4.0 * EmitterParts::kEvenParts)),
                      std::max(1.0, std::sqrt(textured_area / kMostPieces)));
     for_each_triangle(scene, [&](const Draw& draw, std::uint32_t t, double, const Material& m) {
-        if (shines(m)) maker.add(draw, t);
+        if (m.shines()) maker.add(draw, t);
     });
     std::vector<Piece>& pieces = maker.pieces;
     if (pieces.empty()) return result;

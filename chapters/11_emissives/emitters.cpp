@@ -17,20 +17,23 @@ void add_parameters(ParameterTable& table, EmitterParams& params)
     table.add("aimed_rays", params.aimed_rays, 0, 64, "", "rays aimed at emitters; 0: cones meet them by chance");
 }
 
-bool Emitters::run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading,
-                   const EmitterParams& params)
+bool Emitters::run(const GpuScene& gpu_scene, const VoxelGrid& grid, const VoxelFaces& faces,
+                   const VoxelShading& shading, const EmitterParams& params, VoxelStorage storage, bool of_nothing)
 {
-    if (!made_from_.differs(faces.revision(), params)) return false;
+    if (!made_from_.differs(faces.revision(), params, storage, of_nothing)) return false;
     ++revision_;
-    if (parts_made_from_.differs(grid.revision(), params)) {
+    if (parts_made_from_.differs(grid.revision(), gpu_scene.geometry_revision(), params, of_nothing)) {
         params_ = params;
         emitters_ = make_emitter_parts(scene_, grid.data(), kSets * params.aimed_rays, kSets);
-        apart_ = params.aimed_rays > 0 && shine() && emitters_.emitting_share < kLargeShare;
+        apart_ = params.aimed_rays > 0 && (shine() || of_nothing) && emitters_.emitting_share < kLargeShare;
+        if (apart_ && !shine()) emitters_.parts.assign(std::size_t(kSets * params.aimed_rays), shared::EmitterPart{});
         triangles_ = apart_ ? gl::Buffer("emitter triangles", emitters_.triangles) : gl::Buffer();
         parts_ = apart_ ? gl::Buffer("emitter parts", emitters_.parts) : gl::Buffer();
     }
-    if (apart_) pyramid_.run(grid, faces, shading.radiance(), shading.revision(), PyramidParams{}, LightPart::emitted);
-    return shine();
+    PyramidParams pyramid;
+    pyramid.storage = storage;
+    if (apart_) pyramid_.run(grid, faces, shading.radiance(), shading.revision(), pyramid, LightPart::emitted);
+    return apart_ || shine();
 }
 
 void Emitters::bind_emission() const

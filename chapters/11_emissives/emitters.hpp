@@ -17,13 +17,19 @@ void add_parameters(ParameterTable& table, EmitterParams& params);
 
 class Emitters {
 public:
-    // `scene` must outlive this.
-    Emitters(gl::Shaders& shaders, const Scene& scene) : scene_(scene), pyramid_(shaders) {}
+    // `scene` must outlive this. `storage`: of the pyramid of emission, as of that of the voxels.
+    Emitters(gl::Shaders& shaders, const Scene& scene, LightStorage storage = {})
+        : scene_(scene), pyramid_(shaders, std::move(storage))
+    {
+    }
 
-    // What shines, and a pyramid of it, if the faces or a parameter have changed; says whether there is anything. Emission is
-    // kept apart where it is worth it: where something shines, and not so much of the scene that cones meet it as well as
-    // aimed rays would.
-    bool run(const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading, const EmitterParams& params);
+    // What shines, and a pyramid of it, if the faces or a parameter have changed; says whether there is anything.
+    // `gpu_scene` tells whether the vertices of the scene have moved, which are then to be moved too. Emission is kept apart
+    // where it is worth it: where something shines, and not so much of the scene that cones meet it as well as aimed rays
+    // would. `storage`: PyramidParams::storage. `of_nothing`: a scene in which nothing shines has a pyramid of it too, to
+    // measure what that costs.
+    bool run(const GpuScene& gpu_scene, const VoxelGrid& grid, const VoxelFaces& faces, const VoxelShading& shading,
+             const EmitterParams& params, VoxelStorage storage = VoxelStorage::dense, bool of_nothing = false);
     Revision revision() const { return revision_; }
 
     // All of the following is of the last run.
@@ -52,8 +58,8 @@ private:
     bool apart_ = false;
     LightPyramid pyramid_;
     gl::Buffer parts_, triangles_;
-    MadeFrom<Revision, EmitterParams> parts_made_from_;  // grid
-    MadeFrom<Revision, EmitterParams> made_from_;        // faces
+    MadeFrom<Revision, Revision, EmitterParams, bool> parts_made_from_;  // grid, geometry
+    MadeFrom<Revision, EmitterParams, VoxelStorage, bool> made_from_;    // faces
     Revision revision_ = 0;
 };
 

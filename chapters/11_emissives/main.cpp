@@ -58,9 +58,10 @@ try {
 
         // snippet: emission_apart
         // Triangles -> voxels -> what they emit -> six pyramids, and the parts of it to aim at.
+        voxels.voxelize(app, scene);
         voxels.shade(app, scene, shadow_maps);
         app.pass("emitters", Scope::scene, [&] {
-            return emitters.run(voxels.grid(), voxels.faces(), voxels.shading(), emitter_params);
+            return emitters.run(scene, voxels.grid(), voxels.faces(), voxels.shading(), emitter_params);
         });
 
         // What they reflect -> six more. On request nothing that they reflect.

@@ -41,37 +41,46 @@ CameraLight::CameraLight(gl::Shaders& shaders, const SceneLight& light, glm::ive
 {
 }
 
-void CameraLight::see(App& app, const GpuScene& scene)
+void CameraLight::see(App& app, const GpuScene& scene, const LightPlan& plan)
 {
+    direct_ = nullptr;
     sample_ = app.sample(params_.accumulation.accumulate, light_.revision());
     g_buffer_.resize(app.size());
     app.pass("g-buffer", [&] { g_buffer_.draw(scene, app.camera()); });
-    app.pass("direct light", [&] {
-        direct_ = &direct_lighting_.run(g_buffer_, scene, light_.volumes(), light_.voxels().faces(),
-                                        light_.voxels().shading(), light_.shadow_maps(), params_.cones, params_.shadows,
-                                        false);
-    });
+    if (plan.makes_everything && params_.shadows.shadows != ShadowMethod::volume)
+        app.pass("visibility volume", [&] {
+            direct_lighting_.fill_volume(light_.voxels().grid(), light_.voxels().faces(), light_.voxels().shading());
+        });
+    if (plan.direct_light.used)
+        app.pass("direct light", [&] {
+            direct_ = &direct_lighting_.run(g_buffer_, scene, light_.volumes(), light_.voxels().faces(),
+                                            light_.voxels().shading(), light_.shadow_maps(), params_.cones,
+                                            params_.shadows, false);
+        });
 }
 
 void CameraLight::gather(App& app, const LightPlan& plan)
 {
     gathered_ = specular_ = nullptr;
-    if (!plan.diffuse_cones.used) return;
-    directions_.update(params_.cones, sample_);
-    app.pass("diffuse cones", [&] {
-        gathered_ = &diffuse_cones_.run(g_buffer_, light_.volumes(), directions_, params_.cones, params_.diffuse, sample_);
-    });
-    app.pass("emitters' light", [&] {
-        gathered_ = &emitter_light_.run(g_buffer_, light_.volumes(), light_.emitters(), diffuse_cones_, *gathered_,
-                                        params_.cones, sample_);
-        return light_.emitters().are_apart();
-    });
-    if (!plan.specular_cones.used) return;
-    app.pass("specular cones", [&] {
-        light_.emitters().bind_emission();
-        specular_ = &specular_cones_.run(g_buffer_, light_.volumes(), params_.cones, params_.specular, sample_,
-                                         light_.emitters().specular_folder());
-    });
+    if (plan.diffuse_cones.used) {
+        directions_.update(params_.cones, sample_);
+        app.pass("diffuse cones", [&] {
+            gathered_ = &diffuse_cones_.run(g_buffer_, light_.volumes(), directions_, params_.cones, params_.diffuse,
+                                            sample_);
+        });
+        app.pass("emitters' light", [&] {
+            gathered_ = &emitter_light_.run(g_buffer_, light_.volumes(), light_.emitters(), diffuse_cones_, *gathered_,
+                                            params_.cones, sample_);
+            return light_.emitters().are_apart();
+        });
+    }
+    if (plan.specular_cones.used)
+        app.pass("specular cones", [&] {
+            light_.emitters().bind_emission();
+            specular_ = &specular_cones_.run(g_buffer_, light_.volumes(), params_.cones, params_.specular, sample_,
+                                             light_.emitters().specular_folder());
+        });
+    if (!plan.shows_indirect) gathered_ = specular_ = nullptr;
 }
 
 const gl::Texture& CameraLight::sum(App& app)

@@ -27,7 +27,7 @@ public:
     CameraLight(gl::Shaders& shaders, const SceneLight& light, glm::ivec2 size, const CameraLightParams& params);
 
     // The surfaces under the pixels, and the light that comes to them straight from the lights.
-    void see(App& app, const GpuScene& scene);
+    void see(App& app, const GpuScene& scene, const LightPlan& plan = {});
     // What other surfaces send, by many narrow cones for the diffuse lobe and few for the specular one, if any surface has one.
     void gather(App& app, const LightPlan& plan);
     // RGBA32F: the sum, or another of the views; the mean of frames while nothing changes. Valid until the next call.

@@ -14,20 +14,37 @@ struct SceneLightParams {
 };
 void add_parameters(ParameterTable& table, SceneLightParams& params);
 
+// Where to keep what depends on the scene alone, instead of in volumes that hold every voxel.
+struct SceneStorages {
+    LightStorage light;
+    WalkStorage walk;
+};
+
 class SceneLight {
 public:
-    // `shaders`, `source` and `params` must outlive this.
-    SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params);
+    // `shaders`, `source` and `params` must outlive this. `storages`: where params.voxels.pyramid.storage > 0.
+    SceneLight(gl::Shaders& shaders, const Scene& source, const GpuScene& scene, const SceneLightParams& params,
+               const SceneStorages& storages = {});
 
-    void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan);
+    void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan)
+    {
+        run(app, scene, cones, plan, [&] {
+            voxels_.voxelize(app, scene);
+            return FaceChange{};
+        });
+    }
+    // `voxelize`: does the same for voxels(), and says what has changed, if it knows.
+    void run(App& app, const GpuScene& scene, const ConeParams& cones, const LightPlan& plan,
+             const std::function<FaceChange()>& voxelize);
 
+    LitVoxels& voxels() { return voxels_; }
     const LitVoxels& voxels() const { return voxels_; }
     const ShadowMaps& shadow_maps() const { return shadow_maps_; }
     const Emitters& emitters() const { return emitters_; }
     const Bounces& bounces() const { return bounces_; }
     ConeVolumes volumes() const { return {voxels_.grid(), voxels_.pyramid(), walk_volume_}; }
-    // Changes whenever the light in the voxels does.
-    Revision revision() const { return voxels_.pyramid().revision(); }
+    // Changes whenever the light in the voxels does, or what it is made from.
+    Revision revision() const { return voxels_.pyramid().revision() + scene_revision_; }
 
     std::vector<gl::Resource> resources() const;
     std::vector<Need> needs(const Scene& source, const GpuScene& scene) const;
@@ -40,6 +57,7 @@ private:
     WalkVolume walk_volume_;
     Emitters emitters_;
     Bounces bounces_;
+    Revision scene_revision_ = 0;  // of geometry and lights
 };
 
 }  // namespace conebook

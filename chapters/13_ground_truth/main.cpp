@@ -105,7 +105,7 @@ try {
          {scene_light.needs(app.scene(), scene), camera_light.needs(app.scene()), make_plan().decisions()})
         app.statistics().add_needs(needs);
     app.statistics().add_needs({{"path tracer", path_tracer.newest() != nullptr,
-                                 "view " + app.view().name + ", show=" + show_name(Show(reference_params.show))}});
+                                 "view " + app.view().name + ", show=" + show_name(reference_params.show)}});
     return app.finish();
 } catch (const std::exception& error) {
     return conebook::report_failure(error);

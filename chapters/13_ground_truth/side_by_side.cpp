@@ -39,8 +39,8 @@ std::optional<Part> part_of(const View& view)
 Show what_to_show(const View& view, const ReferenceParams& params, bool strict)
 {
     if (view.name == "reference") return Show::reference;
-    if (part_of(view)) return Show(params.show);
-    if (strict && Show(params.show) != Show::picture)
+    if (part_of(view)) return params.show;
+    if (strict && params.show != Show::picture)
         throw std::runtime_error("--view " + view.name + ": the path tracer makes light alone, so show=picture only");
     return Show::picture;
 }

@@ -21,7 +21,7 @@ std::string show_name(Show show);
 struct ReferenceParams {
     // Of a view of light: what the cones make, what the path tracer makes, the left half of one and the right half of
     // the other, or (I - R) / (I + R) with I the cones' radiance and R the path tracer's.
-    int show = int(Show::picture);
+    Show show = Show::picture;
     // Samples per pixel that a headless frame adds, 1 .. 65536. In a window the reference refines without end.
     int spp = 16;
     // The difference that is shown in full colour, 0.01 .. 1. 0.5 is a factor of three, as in compare's heat map.

@@ -27,7 +27,7 @@ void FetchCounter::run(const SceneLight& scene_light, const CameraLight& camera_
     volumes.bind();
     // snippet: count
     gl::Defines defines = {{"EMITTERS", emitters.are_apart() ? "1" : "0"}};
-    defines.merge(cone_defines(params.cones, volumes.pyramid));
+    defines.merge(cone_defines(params.cones, volumes));
     const gl::Program& diffuse = diffuse_.with(defines);
     camera_light.diffuse_cones().points().bind(diffuse);
     camera_light.directions().bind(diffuse, params.cones);

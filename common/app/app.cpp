@@ -9,6 +9,8 @@
 
 #include "app/app_window.hpp"
 #include "app/needs.hpp"
+#include "scene/objects.hpp"
+#include "scene/radical_inverse.hpp"
 
 namespace conebook {
 
@@ -32,9 +34,10 @@ auto of_preset(const std::filesystem::path& preset, Work work)
     }
 }
 
-Scene scene_of(const Options& options)
+Scene scene_of(const Options& options, const ProgramInfo& info)
 {
     Scene scene = load_scene(options.scene);
+    if (info.prepare) info.prepare(scene);
     of_preset(options.preset, [&] { place_lights(scene, options.lights); });
     return scene;
 }
@@ -59,7 +62,7 @@ void flip_rows(std::vector<T>& texels, int width, int height)
 App::App(int argc, char** argv, ProgramInfo info)
     : info_(std::move(info)),
       options_(parse_options(argc, argv, info_)),
-      scene_(scene_of(options_)),
+      scene_(scene_of(options_, info_)),
       context_(options_.headless ? Context::headless(options_.device) : Context::window(info_.name, options_.size)),
       shaders_(options_.root / "shaders"),
       timer_(context_.is_software() ? PassTimer::Clock::cpu_around_finish : PassTimer::Clock::gpu_queries),
@@ -77,6 +80,21 @@ App::App(int argc, char** argv, ProgramInfo info)
 }
 
 App::~App() = default;
+
+void App::place_light(const LightChoice& choice)
+{
+    place_lights(scene_, {choice});
+    const auto same = std::find_if(options_.lights.begin(), options_.lights.end(),
+                                   [&](const LightChoice& other) { return other.index == choice.index; });
+    if (same == options_.lights.end()) {
+        options_.lights.push_back(choice);
+        return;
+    }
+    LightChoice& kept = *same;
+    if (choice.intensity) kept.intensity = choice.intensity;
+    if (choice.position) kept.position = choice.position;
+    if (choice.direction) kept.direction = choice.direction;
+}
 
 void App::each_frame(const std::function<void()>& draw)
 {
@@ -110,18 +128,6 @@ void App::time_pass(const std::string& name, Scope scope, const std::function<bo
         timer_.time(name, scope, work, statistics_);
 }
 
-namespace {
-
-// Van der Corput's radical inverse: the first two, of bases 2 and 3, are Halton's points.
-float radical_inverse(int base, int i)
-{
-    float value = 0.0f, digit = 1.0f / float(base);
-    for (; i > 0; i /= base, digit /= float(base)) value += digit * float(i % base);
-    return value;
-}
-
-}  // namespace
-
 int App::sample(bool accumulate, Revision light)
 {
     const bool changed =
@@ -133,8 +139,16 @@ int App::sample(bool accumulate, Revision light)
 
 shared::CameraData App::camera() const
 {
-    const glm::vec2 offset(radical_inverse(2, sample_), radical_inverse(3, sample_));
-    return moved(camera_data(camera_, size_, scene_.bounds), offset - glm::round(offset));
+    // Halton's points (pbrt 4ed, 8.6.1)
+    const glm::vec2 offset(float(radical_inverse(2, unsigned(sample_))), float(radical_inverse(3, unsigned(sample_))));
+    return moved(camera_data(camera_, size_, bounds_with_objects(scene_)), offset - glm::round(offset));
+}
+
+void App::follow(const std::vector<Camera>& cameras)
+{
+    const CameraChoice& choice = options_.camera;
+    if (cameras.empty() || window_ != nullptr || choice.position || choice.orientation) return;
+    camera_.world_from_camera = cameras[std::size_t(choice.index.value_or(0))].world_from_camera;
 }
 
 const View& App::view() const { return info_.views[view_index_]; }

@@ -21,6 +21,7 @@
 #include "app/panel.hpp"
 #include "app/pass_timer.hpp"
 #include "app/statistics.hpp"
+#include "app/window.hpp"
 #include "gl/debug_log.hpp"
 #include "gl/gpu_scene.hpp"
 #include "gl/handles.hpp"
@@ -38,6 +39,7 @@ public:
 
     const Options& options() const { return options_; }
     const Scene& scene() const { return scene_; }
+    Scene& scene() { return scene_; }  // its bounds stay
     gl::Shaders& shaders() { return shaders_; }
 
     // In a window: what there is to see, and follows the reader, until the first frame is done. `draw` makes a picture
@@ -46,6 +48,10 @@ public:
 
     // Adds a part of a chapter's own to the window's panel. Without a window, nothing.
     void add_panel_section(PanelSection section);
+    // The window's keys and mouse, where they are neither the panel's nor the camera's. Without a window, nothing.
+    void on_input(std::function<bool(const InputEvent&)> handler);
+    // One of the scene's lights as a preset would place it; --save-preset keeps it.
+    void place_light(const LightChoice& choice);
 
     // Draws frame after frame, until the last one is done or the window is closed.
     void each_frame(const std::function<void()>& draw);
@@ -61,6 +67,10 @@ public:
     // This frame's picture is not the last word, though nothing changes: a window draws another.
     void expect_more() { expects_more_ = true; }
     const Camera& scene_camera() const { return camera_; }  // the same, as the path tracer takes it
+    // The scene's cameras have moved, and this one with them; but not where a preset has placed it, or in a window, where
+    // the reader has it.
+    void follow(const std::vector<Camera>& cameras);
+    void move_camera(const glm::mat4& world_from_camera) { camera_.world_from_camera = world_from_camera; }
     const View& view() const;                               // this frame's
     bool shows(const std::string& view_name) const { return view().name == view_name; }
 
@@ -127,7 +137,7 @@ private:
     std::size_t view_index_ = 0;
     int frame_ = -1, sample_ = 0;
     bool accumulates_ = false, expects_more_ = false;  // this frame
-    MadeFrom<glm::mat4, glm::ivec2, std::size_t, std::vector<double>, bool, Revision> seen_;
+    MadeFrom<glm::mat4, glm::ivec2, std::size_t, ParameterValues, bool, Revision> seen_;
     const gl::Texture* linear_ = nullptr;
     const gl::Texture* display_ = nullptr;
     std::unique_ptr<Window> window_;  // null when headless

@@ -44,6 +44,11 @@ void App::add_panel_section(PanelSection section)
     if (window_ != nullptr) window_->sections.push_back(std::move(section));
 }
 
+void App::on_input(std::function<bool(const InputEvent&)> handler)
+{
+    if (window_ != nullptr) window_->input.set_handler(std::move(handler));
+}
+
 // Builds the panel, and takes what the reader did in it for a request.
 void App::build_panel()
 {
@@ -71,8 +76,8 @@ bool App::undo_values(const std::exception& fault)
 {
     if (window_ == nullptr || dynamic_cast<const ExitRequest*>(&fault) != nullptr) return false;
     Window& w = *window_;
-    if (w.drawn_values.empty() || w.drawn_values == info_.parameters.values()) return false;
-    info_.parameters.set_values(w.drawn_values);
+    if (!w.drawn_values || *w.drawn_values == info_.parameters.values()) return false;
+    info_.parameters.set_values(*w.drawn_values);
     w.fault = fault.what();
     std::cerr << info_.name << ": " << w.fault << "\n";
     w.resolution.change();

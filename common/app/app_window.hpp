@@ -23,7 +23,7 @@ struct App::Window {
     std::vector<PanelSection> sections;
     std::string doing_text;            // as the title says it
     std::string fault;                 // of the last change of parameters
-    std::vector<double> drawn_values;  // of the parameters, of the last picture that was finished
+    std::optional<ParameterValues> drawn_values;  // of the last picture that was finished
     bool values_changed = false;       // since then
     WindowResolution resolution;
     bool follows = true;        // frames follow the reader; not with --frames, where each is whole and is finished

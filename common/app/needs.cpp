@@ -1,6 +1,7 @@
 #include "app/needs.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 namespace conebook {
@@ -17,7 +18,11 @@ std::vector<Material> drawn_materials(const Scene& scene)
 }
 
 bool has_specular_lobe(const Material& m) { return !m.unlit && (m.metallic > 0.0f || m.specular > 0.0f); }
-bool shines(const Material& m) { return m.unlit || m.emission != glm::vec3(0.0f); }
+bool has_diffuse_lobe(const Material& m)
+{
+    const bool metal = m.metallic >= 1.0f && !m.metallic_roughness_texture.present();
+    return !m.unlit && !metal && glm::vec3(m.base_color) != glm::vec3(0.0f);
+}
 
 // "3 of 8 materials ...", or "no material ...".
 template <typename Has>
@@ -58,13 +63,25 @@ std::vector<Need> surface_needs(const Scene& scene)
     return {material_need("textures", materials, textured, "with textures"),
             material_need("alpha mask", materials, masked, "with a mask"),
             material_need("normal maps", materials, mapped, "with a normal map"),
-            material_need("emission", materials, shines, "with emission")};
+            material_need("emission", materials, std::mem_fn(&Material::shines), "with emission")};
 }
 
 bool has_specular_surfaces(const Scene& scene)
 {
     const std::vector<Material> materials = drawn_materials(scene);
     return std::any_of(materials.begin(), materials.end(), has_specular_lobe);
+}
+
+bool has_diffuse_surfaces(const Scene& scene)
+{
+    const std::vector<Material> materials = drawn_materials(scene);
+    return std::any_of(materials.begin(), materials.end(), has_diffuse_lobe);
+}
+
+bool has_emission(const Scene& scene)
+{
+    const std::vector<Material> materials = drawn_materials(scene);
+    return std::any_of(materials.begin(), materials.end(), std::mem_fn(&Material::shines));
 }
 
 Need specular_cone_need(const Scene& scene)

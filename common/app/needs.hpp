@@ -21,6 +21,10 @@ std::vector<Need> surface_needs(const Scene& scene);
 // Whether some surface that is drawn has a specular lobe: metal, or a dielectric whose KHR_materials_specular factor is
 // above 0. Where none has, specular cones bring nothing but zeros.
 bool has_specular_surfaces(const Scene& scene);
+// Whether some surface that is drawn has a diffuse lobe: none that is metal all over, unlit or black has. Where none has,
+// diffuse cones bring nothing but zeros.
+bool has_diffuse_surfaces(const Scene& scene);
+bool has_emission(const Scene& scene);
 Need specular_cone_need(const Scene& scene);
 
 // `sky_radiance` in W/(sr m^2): what cones and the camera see that meet no surface.

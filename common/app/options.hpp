@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ struct ProgramInfo {
     std::string name;         // "08_diffuse_cones"
     std::vector<View> views;  // the first is the default
     ParameterTable parameters;
+    // What is to be done with the scene before anything is made of it, its camera included.
+    std::function<void(Scene&)> prepare = {};
 };
 
 struct Options {

@@ -1,6 +1,7 @@
 #include "app/panel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
 #include <cmath>
 
@@ -15,6 +16,7 @@ namespace conebook {
 namespace {
 
 constexpr float kFontPixels = 13.0f;  // of ImGui's own font, at a scale of 1
+constexpr std::size_t kLongestText = 4095;
 
 // An entry of a list of words, if another one is chosen.
 std::optional<std::size_t> choose(const char* id, const std::vector<std::string>& words, std::size_t now)
@@ -74,7 +76,17 @@ bool edit_switch(double& value)
     return changed;
 }
 
-void describe(const Parameter& p, double value)
+// Takes the text when Enter is pressed.
+bool edit_text(std::string& text)
+{
+    std::array<char, kLongestText + 1> buffer{};
+    text.copy(buffer.data(), kLongestText);
+    if (!ImGui::InputText("##value", buffer.data(), buffer.size(), ImGuiInputTextFlags_EnterReturnsTrue)) return false;
+    text = buffer.data();
+    return true;
+}
+
+void describe(const Parameter& p, const std::string& word)
 {
     const float width = 28.0f * ImGui::GetFontSize(), beside = ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
     if (beside + width < ImGui::GetIO().DisplaySize.x)  // where it hides no other parameter
@@ -83,31 +95,34 @@ void describe(const Parameter& p, double value)
     ImGui::PushTextWrapPos(width);
     ImGui::TextUnformatted(p.help.c_str());
     const std::string unit = p.unit.empty() ? "" : " " + p.unit;
-    ImGui::TextDisabled("%s%s; default %s", p.range_text().c_str(), unit.c_str(),
-                        p.value_text(p.default_value).c_str());
-    ImGui::TextDisabled("--set %s=%s", p.name.c_str(), p.value_text(value).c_str());
-    ImGui::TextDisabled("Right click: the default. Ctrl and click: type a number.");
+    ImGui::TextDisabled("%s%s; default %s", p.range_text().c_str(), unit.c_str(), p.default_word().c_str());
+    ImGui::TextDisabled("--set %s=%s", p.name.c_str(), word.c_str());
+    ImGui::TextDisabled(p.as_text != nullptr ? "Right click: the default. Enter takes what is typed."
+                                             : "Right click: the default. Ctrl and click: type a number.");
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
 }
 
-bool edit(const Parameter& p, double& value)
+bool edit(const Parameter& p, double& value, std::string& text)
 {
     ImGui::PushID(p.name.c_str());
     ImGui::SetNextItemWidth(0.5f * ImGui::GetContentRegionAvail().x);
-    bool changed = !p.choices.empty() || !p.values.empty() ? edit_word(p, value)
-                   : p.as_bool != nullptr                  ? edit_switch(value)
-                                                           : edit_number(p, value);
+    bool changed = p.as_text != nullptr                      ? edit_text(text)
+                   : !p.choices.empty() || !p.values.empty() ? edit_word(p, value)
+                   : p.as_bool != nullptr                    ? edit_switch(value)
+                                                             : edit_number(p, value);
     bool hovered = ImGui::IsItemHovered();
     ImGui::SameLine();
-    if (value == p.default_value)
+    const bool is_default = value == p.default_value && text == p.default_text;
+    if (is_default)
         ImGui::TextUnformatted(p.name.c_str());
     else
         ImGui::TextColored(ImVec4(1.0f, 0.8f, 0.3f, 1.0f), "%s", p.name.c_str());
     hovered = hovered || ImGui::IsItemHovered();
-    if (hovered) describe(p, value);
-    if (hovered && value != p.default_value && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
+    if (hovered) describe(p, p.as_text != nullptr ? text : p.value_text(value));
+    if (hovered && !is_default && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
         value = p.default_value;
+        text = p.default_text;
         changed = true;
     }
     ImGui::PopID();
@@ -117,9 +132,10 @@ bool edit(const Parameter& p, double& value)
 void edit_parameters(const PanelContents& contents, PanelChanges& changes)
 {
     if (!ImGui::CollapsingHeader("parameters", ImGuiTreeNodeFlags_DefaultOpen)) return;
-    std::vector<double> values = contents.values;
+    ParameterValues values = contents.values;
     bool changed = false;
-    for (std::size_t i = 0; i < values.size(); ++i) changed = edit(contents.parameters.all()[i], values[i]) || changed;
+    for (std::size_t i = 0; i < values.numbers.size(); ++i)
+        changed = edit(contents.parameters.all()[i], values.numbers[i], values.texts[i]) || changed;
     if (ImGui::Button("copy as --set")) ImGui::SetClipboardText(("--set" + contents.parameters.changed()).c_str());
     if (changed) changes.values = std::move(values);
 }

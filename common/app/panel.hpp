@@ -31,7 +31,7 @@ struct PanelContents {
     const std::vector<View>& views;
     std::size_t view = 0;
     const ParameterTable& parameters;
-    std::vector<double> values;  // of the parameters, as they are wanted
+    ParameterValues values;  // as they are wanted
     const Statistics& statistics;
     const std::vector<PanelSection>& sections;
 };
@@ -39,7 +39,7 @@ struct PanelContents {
 // What the reader did in it.
 struct PanelChanges {
     std::optional<std::size_t> view;
-    std::optional<std::vector<double>> values;  // of all parameters
+    std::optional<ParameterValues> values;
     bool section = false;                       // a section says so
 };
 

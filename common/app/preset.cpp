@@ -170,6 +170,7 @@ Json json_of_vector(const Vector& v)
 Json json_of(const Parameter& parameter)
 {
     const double value = parameter.value();
+    if (parameter.as_text != nullptr) return *parameter.as_text;
     if (!parameter.choices.empty()) return parameter.value_text(value);
     if (parameter.as_bool != nullptr) return value != 0.0;
     return parameter.as_int != nullptr ? Json(*parameter.as_int) : Json(shortest(*parameter.as_float));

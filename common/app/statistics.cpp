@@ -67,6 +67,14 @@ void Statistics::write_json(const std::filesystem::path& file) const
     for (const Need& n : needs_) json["needed"].push_back({{"name", n.name}, {"used", n.used}, {"reason", n.reason}});
     json["counts"] = nlohmann::json::array();
     for (const Count& c : counts_) json["counts"].push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}});
+    if (!plan_.empty()) json["plan"] = nlohmann::json::array();
+    for (const PlanLine& line : plan_)
+        json["plan"].push_back({{"kind", line.kind},
+                                {"name", line.name},
+                                {"used", line.used},
+                                {"bytes", line.bytes},
+                                {"ms", line.milliseconds},
+                                {"reason", line.reason}});
 
     write_file(file, json.dump(1) + "\n");
 }

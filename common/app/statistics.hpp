@@ -27,6 +27,16 @@ struct Count {
     std::string unit;
 };
 
+// A part of a frame that was planned: what it took, and why it is there, or why not.
+struct PlanLine {
+    std::string kind;  // volume, pass, choice
+    std::string name;
+    bool used = false;
+    std::size_t bytes = 0;
+    double milliseconds = 0.0;
+    std::string reason;
+};
+
 // What the result of a pass depends on: the geometry and materials of the scene; its lights too; the camera too.
 enum class Scope { scene, light, camera };
 const char* scope_name(Scope scope);
@@ -49,6 +59,7 @@ public:
                      [](const gl::Resource& resource) { return resource.bytes > 0; });
     }
     void add_needs(const std::vector<Need>& needs) { needs_.insert(needs_.end(), needs.begin(), needs.end()); }
+    void set_plan(std::vector<PlanLine> plan) { plan_ = std::move(plan); }
     void set_counts(std::vector<Count> counts) { counts_ = std::move(counts); }
     void set_run(std::string program, std::string driver, glm::ivec2 size)
     {
@@ -69,6 +80,7 @@ private:
     std::vector<gl::Resource> resources_;
     std::vector<Need> needs_;
     std::vector<Count> counts_;
+    std::vector<PlanLine> plan_;
     std::string program_, driver_;
     glm::ivec2 size_{0};
 };

@@ -1,5 +1,6 @@
 #include "app/window.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -64,7 +65,9 @@ void WindowInput::on_key(GLFWwindow* window, int key, int, int action, int)
     WindowInput& input = input_of(window);
     const bool for_panel = input.panel_has_keyboard();
     if (for_panel) input.note_panel_event();
-    if (action != GLFW_PRESS || for_panel) return;
+    if (action == GLFW_RELEASE || for_panel) return;
+    input.hand_on(InputEvent::Kind::key, key);
+    if (action != GLFW_PRESS) return;
     if (key == GLFW_KEY_F1) {
         input.panel_is_shown_ = !input.panel_is_shown_;
         input.panel_events_ = true;
@@ -90,9 +93,31 @@ void WindowInput::on_cursor(GLFWwindow* window, double x, double y)
     if (turns) input.turned_ += cursor - input.last_cursor_;
     input.last_cursor_ = cursor;
     if (!turns) input.note_panel_event();
+    if (input.dragging_) input.hand_on(InputEvent::Kind::drag);
 }
 
-void WindowInput::on_button(GLFWwindow* window, int, int, int) { input_of(window).note_panel_event(); }
+void WindowInput::on_button(GLFWwindow* window, int button, int action, int)
+{
+    WindowInput& input = input_of(window);
+    input.note_panel_event();
+    if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+    if (action == GLFW_PRESS && !input.panel_has_mouse()) {
+        input.dragging_ = true;
+        input.hand_on(InputEvent::Kind::press);
+    } else if (action == GLFW_RELEASE && std::exchange(input.dragging_, false)) {
+        input.hand_on(InputEvent::Kind::release);
+    }
+}
+
+void WindowInput::hand_on(InputEvent::Kind kind, int key)
+{
+    if (!handler_) return;
+    int width = 1, height = 1;
+    glfwGetWindowSize(window_, &width, &height);
+    const glm::dvec2 size(std::max(width, 1), std::max(height, 1));
+    requests_.section = handler_({kind, key, last_cursor_ / size, size.x / size.y}) || requests_.section;
+    panel_events_ = true;  // which may show it
+}
 
 void WindowInput::on_character(GLFWwindow* window, unsigned int) { input_of(window).note_panel_event(); }
 

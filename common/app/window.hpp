@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bitset>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +16,16 @@ struct GLFWwindow;
 
 namespace conebook {
 
+// What a chapter's own keys and mouse get: what neither the panel takes nor the camera. It comes between the slices of a
+// pass, so whoever takes it changes a copy, as a section of the panel does, and must not throw.
+struct InputEvent {
+    enum class Kind { key, press, drag, release };  // of a key, also while it is held; of the left button
+    Kind kind = Kind::key;
+    int key = 0;          // GLFW_KEY_...
+    glm::dvec2 at{0.0};   // where the cursor is, 0 .. 1 from the picture's top left corner
+    double aspect = 1.0;  // the picture's width over its height
+};
+
 // What the reader asked for since the last WindowInput::take(), in the order in which it came.
 struct WindowRequests {
     bool close = false;
@@ -25,8 +36,8 @@ struct WindowRequests {
     std::optional<std::size_t> view;
     int views_on = 0;
     std::optional<glm::mat4> world_from_camera;  // where the camera has moved
-    std::optional<std::vector<double>> values;   // of all parameters, by the panel
-    bool section = false;                        // a section of the panel has changed something
+    std::optional<ParameterValues> values;       // by the panel
+    bool section = false;                        // a section of the panel, or a chapter's input, has changed something
 };
 
 // Free camera: WASD and QE move, the right mouse button turns, Shift is faster, the wheel changes the speed.
@@ -49,6 +60,8 @@ public:
     bool shows_panel() const { return panel_ != nullptr && panel_is_shown_; }
     // Whether something has happened since the last call that the panel answers.
     bool take_panel_events() { return std::exchange(panel_events_, false); }
+    // Who gets the events that are the chapter's; it says whether that has changed anything.
+    void set_handler(std::function<bool(const InputEvent&)> handler) { handler_ = std::move(handler); }
     // What the reader did in the panel.
     void add(const PanelChanges& changes);
 
@@ -64,6 +77,7 @@ public:
 private:
     void move();
     void note_panel_event();
+    void hand_on(InputEvent::Kind kind, int key = 0);
     bool panel_has_keyboard() const { return shows_panel() && panel_->has_keyboard(); }
     bool panel_has_mouse() const { return shows_panel() && panel_->has_mouse(); }
     static void on_key(GLFWwindow* window, int key, int scancode, int action, int modifiers);
@@ -77,8 +91,10 @@ private:
     WindowRequests requests_;
     std::string title_;
     Panel* panel_ = nullptr;
+    std::function<bool(const InputEvent&)> handler_;
     bool panel_is_shown_ = true, panel_events_ = false;
-    gl::Texture shown_;  // the last picture
+    bool dragging_ = false;  // the left button went down beside the panel, and is down
+    gl::Texture shown_;      // the last picture
     gl::Handle<gl::delete_framebuffer> read_framebuffer_;
     glm::vec3 position_{0.0f};
     float yaw_rad_ = 0.0f, pitch_rad_ = 0.0f;

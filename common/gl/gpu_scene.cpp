@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
+#include <functional>
+#include <set>
+#include <utility>
 
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/gtc/matrix_inverse.hpp>
@@ -58,8 +60,7 @@ gl::Texture upload_rgba8(const Image& image, GLenum format)
     gl::Texture texture = gl::texture_2d(image.name.empty() ? "texture" : image.name, format,
                                          {image.width, image.height}, level_count(image.width, image.height));
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE,
-                        image.rgba.data());
+    glTextureSubImage2D(texture.id(), 0, 0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
     glGenerateTextureMipmap(texture.id());  // averages sRGB formats in linear light (OpenGL 4.5, 8.24)
     return texture;
 }
@@ -98,6 +99,25 @@ GLuint make_sampler(const TextureSlot& slot)
 }
 
 }  // namespace
+
+// snippet: is_outside
+bool is_outside(const Bounds& box, const glm::mat4& clip_from_scene)
+{
+    // The sides are sums and differences of the rows (Gribb & Hartmann 2001): -w <= x, y <= w and 0 <= z <= w.
+    const glm::dmat4 rows(glm::transpose(clip_from_scene));
+    for (const glm::dvec4& side :
+         {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1], rows[2], rows[3] - rows[2]}) {
+        bool beyond = true;
+        for (int i = 0; i < 8 && beyond; ++i) {
+            const glm::dvec4 corner(glm::dvec3(box.corner(i)), 1.0);
+            constexpr double kRounding = 1e-5;  // of a sum of four floats, and more
+            beyond = glm::dot(side, corner) < -kRounding * glm::dot(glm::abs(side), glm::abs(corner));
+        }
+        if (beyond) return true;
+    }
+    return false;
+}
+// end snippet
 
 shared::LightData light_data(const Light& light)
 {
@@ -143,6 +163,17 @@ shared::CameraData moved(const shared::CameraData& camera, glm::vec2 pixels)
 }
 
 namespace {
+std::optional<Bounds> bounds_of(const Scene& scene, const Draw& draw)
+{
+    if (draw.index_count == 0) return {};
+    Bounds box{glm::vec3(INFINITY), glm::vec3(-INFINITY)};
+    for (std::uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; ++i) {
+        box.min = glm::min(box.min, scene.vertices[scene.indices[i]].position);
+        box.max = glm::max(box.max, scene.vertices[scene.indices[i]].position);
+    }
+    return box;
+}
+
 gl::Buffer light_buffer(const std::vector<Light>& lights)
 {
     std::vector<shared::LightData> data;
@@ -151,43 +182,68 @@ gl::Buffer light_buffer(const std::vector<Light>& lights)
 }
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene)
-    : triangle_count_(scene.triangle_count()),
-      bounds_(scene.bounds),
-      lights_(scene.lights),
-      draws_(scene.draws),
-      materials_(scene.materials),
-      vertex_buffer_("vertices", scene.vertices),
-      index_buffer_("indices", scene.indices)
+namespace {
+
+// What the triangles of a draw make of its material.
+MaterialUse use_of(const Scene& scene, const Draw& draw)
 {
-    std::vector<shared::MaterialData> materials;
-    for (const Material& m : scene.materials) {
-        materials.push_back(material_data(m));
-        has_emission_ = has_emission_ || m.emission != glm::vec3(0.0f) || m.unlit;
+    MaterialUse use;
+    use.triangles = draw.index_count / 3;
+    for (std::uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3) {
+        const auto corner = [&](std::uint32_t k) { return scene.vertices[scene.indices[i + k]].position; };
+        const glm::vec3 a = corner(0), b = corner(1), c = corner(2);
+        const glm::vec3 sides = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
+        const glm::vec3 areas = 0.5f * glm::abs(glm::cross(b - a, c - a));
+        use.box_sides_m += double(sides.x + sides.y + sides.z);
+        use.seen_areas_m2 += double(areas.x + areas.y + areas.z);
     }
-    for (const Node& node : scene.nodes) may_move_ = may_move_ || (node.dynamic && node.vertices.count > 0);
+    for (std::uint32_t i = 0; i < draw.index_count && !use.vertex_alpha; ++i)
+        use.vertex_alpha = scene.vertices[scene.indices[draw.first_index + i]].color.a != 1.0f;
+    return use;
+}
+
+void add(MaterialUse& sum, const MaterialUse& one)
+{
+    sum.triangles += one.triangles;
+    sum.vertex_alpha = sum.vertex_alpha || one.vertex_alpha;
+    sum.box_sides_m += one.box_sides_m;
+    sum.seen_areas_m2 += one.seen_areas_m2;
+}
+
+
+}  // namespace
+
+GpuScene::GpuScene(const Scene& scene)
+    : bounds_(scene.bounds), lights_(scene.lights), light_buffer_(light_buffer(scene.lights))
+{
+    white_ = upload_rgba8({"white", 1, 1, {255, 255, 255, 255}}, GL_RGBA8);
+    set_triangles(scene, 0);
+}
+
+void GpuScene::set_triangles(const Scene& scene, std::size_t same_images)
+{
+    triangle_count_ = scene.triangle_count();
+    draws_ = scene.draws;
+    materials_ = scene.materials;
+    vertex_buffer_ = gl::Buffer("vertices", scene.vertices);
+    index_buffer_ = gl::Buffer("indices", scene.indices);
+    std::vector<shared::MaterialData> materials;
+    for (const Material& m : scene.materials) materials.push_back(material_data(m));
     material_buffer_ = gl::Buffer("materials", materials);
-    material_uses_.resize(materials.size());
+    has_emission_ = std::any_of(materials_.begin(), materials_.end(), std::mem_fn(&Material::shines));
+    find_dynamic(scene);
+
     std::vector<GLuint> triangle_materials(triangle_count_, 0u);
+    draw_uses_.clear();
     for (const Draw& draw : scene.draws) {
         const bool double_sided = scene.materials[std::size_t(draw.material)].double_sided;
         const GLuint word = GLuint(draw.material) | (double_sided ? shared::kTriangleDoubleSided : 0u);
         std::fill_n(triangle_materials.begin() + draw.first_index / 3, draw.index_count / 3, word);
-        MaterialUse& use = material_uses_[std::size_t(draw.material)];
-        use.triangles += draw.index_count / 3;
-        for (std::uint32_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3) {
-            const auto corner = [&](std::uint32_t k) { return scene.vertices[scene.indices[i + k]].position; };
-            const glm::vec3 a = corner(0), b = corner(1), c = corner(2);
-            const glm::vec3 sides = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
-            const glm::vec3 areas = 0.5f * glm::abs(glm::cross(b - a, c - a));
-            use.box_sides_m += double(sides.x + sides.y + sides.z);
-            use.seen_areas_m2 += double(areas.x + areas.y + areas.z);
-        }
-        for (std::uint32_t i = 0; i < draw.index_count && !use.vertex_alpha; ++i)
-            use.vertex_alpha = scene.vertices[scene.indices[draw.first_index + i]].color.a != 1.0f;
+        draw_uses_.push_back(use_of(scene, draw));
     }
     triangle_material_buffer_ = gl::Buffer("materials of triangles", triangle_materials);
-    light_buffer_ = light_buffer(scene.lights);
+    material_uses_.assign(materials.size(), {});
+    for (std::size_t d = 0; d < draws_.size(); ++d) add(material_uses_[std::size_t(draws_[d].material)], draw_uses_[d]);
 
     struct Attribute {
         GLint components;
@@ -204,32 +260,82 @@ GpuScene::GpuScene(const Scene& scene)
         glVertexArrayAttribFormat(vao, i, attributes[i].components, GL_FLOAT, GL_FALSE, GLuint(attributes[i].offset));
         glVertexArrayAttribBinding(vao, i, 0);
     }
+    bind_textures(scene, same_images);
+}
 
-    const Image white_image{"white", 1, 1, {255, 255, 255, 255}};
-    white_ = upload_rgba8(white_image, GL_RGBA8);
-
-    std::map<std::pair<int, bool>, int> uploaded;  // (image, sRGB) -> texture
+void GpuScene::bind_textures(const Scene& scene, std::size_t same_images)
+{
+    std::map<TextureOf, gl::Texture> before = std::exchange(textures_, {});
+    const auto texture_of = [&](const TextureOf& key, const Material& m) {
+        const auto [entry, is_new] = textures_.try_emplace(key);
+        if (!is_new) return entry->second.id();
+        const auto kept = before.find(key);
+        const Image& image = scene.images[std::size_t(key.image)];
+        if (kept != before.end() && std::size_t(key.image) < same_images)
+            entry->second = std::move(kept->second);
+        else if (key.content == Content::coverage)
+            entry->second = upload_coverage(image, m);
+        else
+            entry->second = upload_rgba8(image, key.content == Content::srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8);
+        return entry->second.id();
+    };
+    bindings_.clear();
     for (const Material& m : scene.materials) {
         auto& bindings = bindings_.emplace_back();
         const auto slots = slots_of(m);
         for (int s = 0; s < kSlots; ++s) {
             if (!slots[s]->present()) continue;
-            const auto [entry, is_new] = uploaded.try_emplace({slots[s]->image, is_srgb(s)}, int(textures_.size()));
-            if (is_new)
-                textures_.push_back(upload_rgba8(scene.images[std::size_t(slots[s]->image)],
-                                                 is_srgb(s) ? GL_SRGB8_ALPHA8 : GL_RGBA8));
-            bindings[s].texture = entry->second;
+            const Content content = is_srgb(s) ? Content::srgb : Content::linear;
+            bindings[s].texture = texture_of({slots[s]->image, content, 0.0f, 0.0f}, m);
             bindings[s].sampler = gl::Handle<gl::delete_sampler>(make_sampler(*slots[s]));
         }
         if (m.alpha_mode == AlphaMode::mask && m.base_color_texture.present()) {
-            bindings[shared::kCoverageUnit].texture = int(textures_.size());
-            textures_.push_back(upload_coverage(scene.images[std::size_t(m.base_color_texture.image)], m));
             TextureSlot slot = m.base_color_texture;
+            bindings[shared::kCoverageUnit].texture =
+                texture_of({slot.image, Content::coverage, m.base_color.a, m.alpha_cutoff}, m);
             slot.mipmapped = true;
             slot.min_filter = Filter::linear;
             bindings[shared::kCoverageUnit].sampler = gl::Handle<gl::delete_sampler>(make_sampler(slot));
         }
     }
+}
+
+void GpuScene::move(const Scene& scene, std::size_t index)
+{
+    const Node& node = scene.nodes[index];
+    vertex_buffer_.write(node.vertices.first * sizeof(Vertex), node.vertices.count * sizeof(Vertex),
+                         &scene.vertices[node.vertices.first]);
+    std::set<int> materials;
+    for (std::uint32_t d = node.draws.first; d < node.draws.end(); ++d) {
+        draw_uses_[d] = use_of(scene, draws_[d]);
+        if (boxes_[d]) boxes_[d] = bounds_of(scene, draws_[d]);
+        materials.insert(draws_[d].material);
+    }
+    for (const int material : materials) {  // in the order in which they were summed first
+        material_uses_[std::size_t(material)] = {};
+        for (std::size_t d = 0; d < draws_.size(); ++d)
+            if (draws_[d].material == material) add(material_uses_[std::size_t(material)], draw_uses_[d]);
+    }
+}
+
+void GpuScene::set_material(const Scene& scene, std::size_t material)
+{
+    materials_[material] = scene.materials[material];
+    const shared::MaterialData data = material_data(materials_[material]);
+    material_buffer_.write(material * kMaterialStride, sizeof data, &data);
+    has_emission_ = std::any_of(materials_.begin(), materials_.end(), std::mem_fn(&Material::shines));
+}
+
+void GpuScene::find_dynamic(const Scene& scene)
+{
+    std::vector<bool> moves(draws_.size(), false);
+    for (const Node& node : scene.nodes)
+        for (std::uint32_t d = node.draws.first; d < node.draws.end() && node.dynamic; ++d) moves[d] = true;
+    boxes_.assign(draws_.size(), {});
+    for (std::size_t d = 0; d < draws_.size(); ++d)
+        if (!moves[d]) boxes_[d] = bounds_of(scene, draws_[d]);
+    may_move_ = std::any_of(scene.nodes.begin(), scene.nodes.end(),
+                            [](const Node& node) { return node.dynamic && node.vertices.count > 0; });
 }
 
 void GpuScene::set_lights(const std::vector<Light>& lights)
@@ -252,7 +358,7 @@ void GpuScene::bind_material(std::size_t material) const
     const auto& bindings = bindings_[material];
     for (GLuint unit = 0; unit < bindings.size(); ++unit) {
         const BoundTexture& bound = bindings[unit];
-        glBindTextureUnit(unit, bound.texture >= 0 ? textures_[std::size_t(bound.texture)].id() : white_.id());
+        glBindTextureUnit(unit, bound.texture != 0 ? bound.texture : white_.id());
         glBindSampler(unit, bound.sampler.id());
     }
 }
@@ -264,19 +370,23 @@ void unbind_samplers()
 }
 }  // namespace
 
-void GpuScene::draw(const gl::Program& program, Culling culling) const
+std::size_t GpuScene::draw(const gl::Program& program, Culling culling, const glm::mat4* clip_from_scene) const
 {
+    std::size_t drawn = 0;
     program.use();
     bind_lights(program);
     glBindVertexArray(vertex_array_.id());
     glCullFace(GL_BACK);
     int bound_material = -1;
-    for (const Draw& draw : draws_) {
+    for (std::size_t i = 0; i < draws_.size(); ++i) {
+        const Draw& draw = draws_[i];
+        if (clip_from_scene != nullptr && boxes_[i] && is_outside(*boxes_[i], *clip_from_scene)) continue;
+        ++drawn;
         if (draw.material != bound_material) {
             bound_material = draw.material;
             bind_material(std::size_t(draw.material));
-            const bool cull = culling == Culling::back_of_single_sided &&
-                              !materials_[std::size_t(draw.material)].double_sided;
+            const bool cull =
+                culling == Culling::back_of_single_sided && !materials_[std::size_t(draw.material)].double_sided;
             (cull ? glEnable : glDisable)(GL_CULL_FACE);
         }
         glDrawElements(GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT,
@@ -284,13 +394,16 @@ void GpuScene::draw(const gl::Program& program, Culling culling) const
     }
     glDisable(GL_CULL_FACE);
     unbind_samplers();
+    return drawn;
 }
 
-void GpuScene::draw_geometry(const gl::Program& program) const
+void GpuScene::draw_geometry(const gl::Program& program, Range triangles) const
 {
+    program.set("first_triangle", triangles.first);
     program.use();
     glBindVertexArray(vertex_array_.id());
-    glDrawElements(GL_TRIANGLES, GLsizei(3 * triangle_count_), GL_UNSIGNED_INT, nullptr);
+    glDrawElements(GL_TRIANGLES, GLsizei(3 * triangles.count), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(3 * std::size_t(triangles.first) * sizeof(GLuint)));
 }
 
 void GpuScene::bind_triangles() const
@@ -330,7 +443,7 @@ std::vector<Triangle> GpuScene::triangles() const
 std::vector<gl::Resource> GpuScene::resources() const
 {
     std::size_t texture_bytes = 0;
-    for (const gl::Texture& texture : textures_) texture_bytes += texture.bytes();
+    for (const auto& [key, texture] : textures_) texture_bytes += texture.bytes();
     return {{"scene geometry", vertex_buffer_.bytes() + index_buffer_.bytes() + triangle_material_buffer_.bytes()},
             {"scene textures", texture_bytes},
             {"scene materials and lights", material_buffer_.bytes() + light_buffer_.bytes()}};

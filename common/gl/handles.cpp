@@ -104,6 +104,15 @@ void Buffer::clear() const
     glClearNamedBufferData(id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
+void grow(Buffer& buffer, const std::string& label, std::size_t bytes, std::size_t kept)
+{
+    if (buffer.bytes() >= bytes) return;
+    Buffer larger(label, (bytes + bytes / 4 + 15) / 16 * 16);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    if (kept > 0) glCopyNamedBufferSubData(buffer.id(), larger.id(), 0, 0, GLsizeiptr(kept));
+    buffer = std::move(larger);
+}
+
 void Buffer::bind(GLenum target, GLuint index) const { glBindBufferBase(target, index, id()); }
 
 void Buffer::read_bytes(std::size_t offset, std::size_t bytes, void* out) const

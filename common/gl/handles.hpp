@@ -103,6 +103,9 @@ private:
     std::string label_;
 };
 
+// Another buffer where `bytes` are more than there are, with what the first `kept` bytes held, and room for a quarter more.
+void grow(Buffer& buffer, const std::string& label, std::size_t bytes, std::size_t kept);
+
 // What a storage block of this driver holds; OpenGL 4.5 promises 128 MiB (chapter 23, MAX_SHADER_STORAGE_BLOCK_SIZE).
 std::size_t most_storage_bytes();
 // Throws std::runtime_error, which names the items, the limit and the remedy, where that is less than `count` items.

@@ -14,9 +14,9 @@ PosePass::PosePass(gl::Shaders& shaders, const Scene& scene) : scene_(scene)
     const std::vector<NodePose> rest = rest_pose(scene);
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const Node& node = scene.nodes[i];
-        if (!node.dynamic || node.modelled.count == 0) continue;
-        parts_.push_back({i, matrices, weights, scene_from_mesh(scene, rest, i), node.weights});
-        matrices += parts_.back().matrices.size();
+        if (!node.dynamic || node.modelled.count == 0 || node.object >= 0) continue;
+        parts_.push_back({i, matrices, weights, {}, {}});
+        matrices += scene_from_mesh(scene, rest, i).size();
         weights += node.weights.size();
     }
     if (parts_.empty()) return;

@@ -1,4 +1,5 @@
-// Poses on the GPU: writes the vertices of what has moved where GpuScene has them, so that everything else stays as it is.
+// Poses on the GPU: writes the vertices of what has moved where GpuScene has them, so that everything else stays as it
+// is.
 // Its twin on the CPU: scene/pose.hpp.
 #pragma once
 
@@ -11,11 +12,12 @@ namespace conebook {
 
 class PosePass {
 public:
-    // `scene` must outlive this. Without anything dynamic in it, this holds nothing and does nothing.
+    // `scene` must outlive this, and the nodes of its file stay as they are. Without anything dynamic among them, this
+    // holds nothing and does nothing; objects that were put into the scene are placed by who moves them.
     PosePass(gl::Shaders& shaders, const Scene& scene);
 
-    // Poses the dynamic nodes whose matrices or weights differ from those of the last call (of the first: from the rest
-    // pose) and counts up geometry_revision(). Says whether there were any. `gpu_scene` was made from the same scene.
+    // Poses the dynamic nodes whose matrices or weights differ from those of the last call (at the first: all of them, so that
+    // no vertex is the loader's, which rounds otherwise) and counts up geometry_revision(). Says whether there were any. `gpu_scene` was made from the same scene.
     bool run(GpuScene& gpu_scene, const std::vector<NodePose>& nodes);
 
     // Indices into Scene::nodes of those that the last call moved.

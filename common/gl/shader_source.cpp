@@ -29,6 +29,7 @@ public:
         open_.push_back(file);
         std::istringstream lines(read_text(root_ / file));
         static const std::regex include_line(R"(^\s*#include\s+\"([^\"]+)\".*)");
+        static const std::regex chosen_include_line(R"(^\s*#include\s+([A-Z_]+)\s*)");
         std::string line;
         for (int number = 1; std::getline(lines, line); ++number) {
             std::smatch match;
@@ -37,9 +38,24 @@ public:
                 start_line(number + 1, file_number);
                 continue;
             }
+            if (std::regex_match(line, match, chosen_include_line)) {
+                const auto chosen = defines_.find(match[1]);
+                // Where it isn't chosen the line is not active, or it is a fault that the compiler tells.
+                if (chosen == defines_.end())
+                    source_.text += "#error no file is chosen for " + match[1].str() + "\n";
+                else
+                    include(chosen->second, file + ":" + std::to_string(number));
+                start_line(number + 1, file_number);
+                continue;
+            }
             source_.text += line + "\n";
             if (line.rfind("#version", 0) != 0) continue;
-            for (const auto& [name, value] : defines_) source_.text += "#define " + name + " " + value + "\n";
+            for (const auto& [name, value] : defines_) {
+                const bool is_file = value.ends_with(".glsl");
+                source_.text += "#define " + name + " ";
+                source_.text += is_file ? "1" : value;
+                source_.text += "\n";
+            }
             start_line(number + 1, file_number);
         }
         open_.pop_back();

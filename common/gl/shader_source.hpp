@@ -8,7 +8,8 @@
 
 namespace conebook::gl {
 
-// #define NAME VALUE, placed after #version.
+// #define NAME VALUE, placed after #version. A value that is a file (*.glsl) is what a line #include NAME stands for; for
+// #ifdef such a name is 1.
 using Defines = std::map<std::string, std::string>;
 
 struct ShaderSource {

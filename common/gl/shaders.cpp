@@ -174,6 +174,11 @@ Program Shaders::load(const std::vector<std::string>& files, const Defines& defi
     return Program(state);
 }
 
+std::size_t Shaders::program_count() const
+{
+    return std::size_t(std::count_if(programs_.begin(), programs_.end(), [](const auto& p) { return !p.expired(); }));
+}
+
 void Shaders::reload()
 {
     for (const auto& weak : programs_)

@@ -49,6 +49,7 @@ public:
     // shader root (expand_shader). Throws std::runtime_error with FILE:LINE of the fault. A warning of the compiler is
     // printed, or thrown when gl::strict(). $CONEBOOK_DUMP_SHADERS: a folder that gets the text of every shader.
     Program load(const std::vector<std::string>& files, const Defines& defines = {});
+    std::size_t program_count() const;  // of those still in use
     // Compile again all programs still in use. On a fault the old programs stay and the fault is thrown.
     void reload();
     // What all programs are to do between the slices of a long draw (pixel_pass.hpp), and what load() does before

@@ -38,7 +38,7 @@ EmitterSampler::EmitterSampler(const Scene& scene) : scene_(&scene), pdf_by_draw
     for (std::uint32_t d = 0; d < scene.draws.size(); ++d) {
         const Draw& draw = scene.draws[d];
         const Material& material = scene.materials[draw.material];
-        if (!material.unlit && material.emission == glm::vec3(0.0f)) continue;
+        if (!material.shines()) continue;
         for (std::uint32_t t = 0; t < draw.index_count / 3; ++t) {
             const double area = 0.5 * glm::length(cross_of(triangle_point(scene, draw, t, 0, 0)));
             const double weight = rough_radiance(scene, draw, t) * area * (material.double_sided ? 2.0 : 1.0);

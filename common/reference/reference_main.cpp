@@ -13,6 +13,8 @@
 #include "image/picture_size.hpp"
 #include "reference/path_tracer.hpp"
 #include "reference/shared_light.hpp"
+#include "scene/objects.hpp"
+#include "scene/pose.hpp"
 
 using namespace conebook;
 
@@ -53,6 +55,8 @@ int run(int argc, char** argv)
     std::optional<int> camera_index;
     PathTraceOptions options;
     float sky = 0.0f;
+    std::optional<double> time_s;
+    std::string objects;
     bool shared = false, write_parts = false;
     CLI::App app{"Path traces a glTF scene on the CPU: scene-linear radiance, standard error per pixel."};
     app.add_option("--scene", scene_file, ".gltf or .glb file")->required();
@@ -65,6 +69,8 @@ int run(int argc, char** argv)
     app.add_option("--part", part, "final, direct, indirect_diffuse, indirect_specular or emission");
     app.add_option("--error", error_file, ".exr file for the standard error per pixel");
     app.add_option("--sky", sky, "radiance of a constant sky, default 0")->check(CLI::Range(0.0, 1e9));
+    app.add_option("--time", time_s, "s: the pose of what the file animates; default: as it lies there")->check(CLI::Range(0.0, 1e6));
+    app.add_option("--objects", objects, objects_help());
     app.add_option("--threads", options.threads, "default 0: all cores; does not change the picture")
         ->check(CLI::Range(0, 1024));
     app.add_option("--max-seconds", options.max_seconds, "stop after the pass that exceeds this time")
@@ -104,9 +110,19 @@ int run(int argc, char** argv)
     if (!error_file.empty() && options.spp < 2)
         throw std::runtime_error("--error needs at least 2 samples per pixel (--spp)");
 
-    const Scene scene = load_scene(scene_file);
+    Scene scene = load_scene(scene_file);
+    PlacedObjects placed(scene);
+    try {
+        placed.set(scene, parse_objects(objects));
+    } catch (const std::runtime_error& error) {
+        throw std::runtime_error(std::string("--objects: ") + error.what());
+    }
+    scene.bounds = bounds_with_objects(scene);
+    const Bounds all_poses = time_s ? swept_bounds(scene) : scene.bounds;
+    if (time_s) scene = posed(std::move(scene), *time_s);
     const std::string name = std::filesystem::path(scene_file).filename().string();
     for (const std::string& warning : scene.warnings) std::cerr << name << ": note: " << warning << "\n";
+    scene.bounds = all_poses;  // a camera that the file lacks shows all of them, as in chapter 15
     const Camera camera = choose_camera(scene, camera_index);
     const bool terminal = isatty(STDERR_FILENO);
     if (terminal) options.progress = show_progress;

@@ -40,7 +40,8 @@ struct Transform {
 // that one pass from front to back makes a pose: world_from_node = (parent's world_from_node) * local_matrix().
 struct Node {
     std::string name;                   // may be empty
-    int file_index = 0;                 // nodes[file_index] of the file
+    int file_index = 0;                 // nodes[file_index] of the file; -1: an object that was put into the scene
+    int object = -1;                    // then, which of PlacedObjects::objects(); else -1
     int parent = -1;                    // index into Scene::nodes; -1: none
     Transform local;                    // parent from node, where `matrix` is empty
     std::optional<glm::dmat4> matrix;   // of a node that has one in the file instead; nothing animates it (3.5.3)

@@ -229,4 +229,14 @@ Pose pose(const Scene& scene, double time_s)
     return result;
 }
 
+Scene posed(Scene scene, double time_s)
+{
+    Pose now = pose(scene, time_s);
+    scene.vertices = std::move(now.vertices);
+    scene.bounds = now.bounds;
+    scene.lights = std::move(now.lights);
+    scene.cameras = std::move(now.cameras);
+    return scene;
+}
+
 }  // namespace conebook

@@ -40,6 +40,9 @@ struct Pose {
 };
 Pose pose(const Scene& scene, double time_s);
 
+// The scene with everything where it is at a time, as if its file had it there: for those who take a scene that stands still.
+Scene posed(Scene scene, double time_s);
+
 // Lights and cameras of these nodes; one that a node without extent carries stays where it is in the scene.
 std::vector<Light> posed_lights(const Scene& scene, const std::vector<NodePose>& nodes);
 std::vector<Camera> posed_cameras(const Scene& scene, const std::vector<NodePose>& nodes);

@@ -71,6 +71,7 @@ struct Material {
     TextureSlot emission_texture;            // sRGB
     TextureSlot specular_texture;            // A scales `specular`
     TextureSlot specular_color_texture;      // sRGB
+    bool shines() const { return unlit || emission != glm::vec3(0.0f); }
     std::string extras;                      // JSON, "" where the file has none
 };
 

@@ -8,13 +8,14 @@ layout(triangle_strip, max_vertices = 4) out;
 in vec3 vertex_position[];  // scene space, m
 flat out GridTriangle triangle;
 flat out uint triangle_index;
+uniform uint first_triangle;
 
 const float kReach = 0.5 + 0.01;  // half a pixel, and a little for the rasterizer's rounding of coordinates
 
 void emit_at(vec2 p, GridTriangle t)
 {
     triangle = t;
-    triangle_index = uint(gl_PrimitiveIDIn);
+    triangle_index = first_triangle + uint(gl_PrimitiveIDIn);
     gl_Position = vec4(2.0 * p / largest(vec3(grid.size.xyz)) - 1.0, 0.0, 1.0);
     EmitVertex();
 }

@@ -7,14 +7,14 @@
 #include "common/item_index.glsl"
 
 layout(std430, binding = kLargeTriangleBinding) writeonly buffer LargeTriangleBuffer { uint large_triangles[]; };
-uniform uint triangle_count;
+uniform uint first_triangle, triangle_count;
 
 const int kFewColumns = 64;  // as many as a work group of step 2 has threads
 
 void main()
 {
-    uint triangle = item_index();
-    if (triangle >= triangle_count) return;
+    if (item_index() >= triangle_count) return;
+    uint triangle = first_triangle + item_index();
     GridTriangle t = fetch_triangle(triangle);
     if (has_no_area(t)) {
         count_degenerate();

@@ -1,7 +1,12 @@
 // Walk along a ray from voxel to voxel (Amanatides & Woo 1987) until one is occupied.
 #include "common/voxel_grid.glsl"
 
+#ifdef OCCUPANCY_STORAGE
+#include OCCUPANCY_STORAGE
+#else
 layout(binding = kOccupancyUnit) uniform usampler3D occupancy;
+bool is_occupied(ivec3 voxel, int level) { return texelFetch(occupancy, voxel, level).r != 0u; }
+#endif
 
 struct VoxelHit {
     bool hit;
@@ -27,7 +32,7 @@ VoxelHit walk_voxels(vec3 origin, vec3 direction, int level)
     vec3 next = (vec3(voxel) + max(vec3(step_by), vec3(0.0)) - origin) * inverse;
     int steps = t < t_end ? size.x + size.y + size.z : 0;
     for (int i = 0; i < steps; ++i) {
-        if (texelFetch(occupancy, voxel, level).r != 0u) {
+        if (is_occupied(voxel, level)) {
             hit.hit = true;
             hit.voxel = voxel;
             hit.t = t;

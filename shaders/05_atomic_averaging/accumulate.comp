@@ -7,6 +7,7 @@
 layout(r32ui, binding = 0) readonly uniform uimage3D face_index;
 // Of a face kSumCount low words, then as many high ones.
 layout(std430, binding = kSumBinding) buffer SumBuffer { uint sums[]; };
+uniform uint first_face;  // the sums of faces before it are done
 
 // 64-bit addition in two 32-bit atomics: whoever makes the low word wrap carries one into the high word. Integer sums
 // do not depend on the order of the threads, so every run gives the same bits.
@@ -51,7 +52,8 @@ void main()
     for (int side = 0; side < sides; ++side) {
         int face = front_face(f.t) ^ side;
         if ((face_mask(entry) & (1u << face)) == 0u) continue;  // never: chapter 04 marked it
-        uint word = face_place(entry, face) * uint(2 * kSumCount);
+        uint place = face_place(entry, face), word = place * uint(2 * kSumCount);
+        if (place < first_face) continue;
         add64(word + uint(kSumArea), uint(weight), 0u);
         add_vec3(word + uint(kSumAlbedo), m.albedo * weight);
         add_vec3(word + uint(kSumNormal), (side == 0 ? 1.0 + m.normal : 1.0 - m.normal) * weight);

@@ -2,38 +2,16 @@
 // Sums to means, one thread a face.
 #include "common/voxel_grid.glsl"
 #include "common/item_index.glsl"
-#include "common/voxel_counters.glsl"
 
 layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
-layout(std430, binding = kSumBinding) readonly buffer SumBuffer { uint sums[]; };
 layout(std430, binding = kFaceBinding) writeonly buffer FaceBuffer { VoxelFace faces[]; };
+uniform uint first_face, face_count;
 
-float sum_of(uint place, int sum)
-{
-    uint word = place * uint(2 * kSumCount) + uint(sum);
-    return (float(sums[word + uint(kSumCount)]) * 4294967296.0 + float(sums[word])) / kFixedPointOne;
-}
-
-vec3 mean_of(uint place, int sum, float area)
-{
-    return vec3(sum_of(place, sum), sum_of(place, sum + 1), sum_of(place, sum + 2)) / area;
-}
+#include "05_atomic_averaging/face_mean.glsl"
 
 void main()
 {
-    uint place = item_index();
-    if (place >= voxel_statistics.faces) return;
-    uint entry = face_list[place];
-    vec3 corner = vec3(unpack_voxel(entry));
-    float area = sum_of(place, kSumArea);
-    VoxelFace face = VoxelFace(vec4(0.0), vec4(face_normal(int(entry >> 27)), 0.0), vec4(0.0), vec4(corner + 0.5, 0.0));
-    if (area > 0.0) {
-        vec3 normal = mean_of(place, kSumNormal, area) - 1.0;
-        face.albedo_area = vec4(clamp(mean_of(place, kSumAlbedo, area), 0.0, 1.0), area);
-        // Opposite normals may cancel: then the face's own direction stands for them.
-        if (dot(normal, normal) > 1e-6) face.normal.xyz = normalize(normal);
-        face.emission.rgb = mean_of(place, kSumEmission, area);
-        face.position.xyz = corner + clamp(mean_of(place, kSumPosition, area), 0.0, 1.0);
-    }
-    faces[place] = face;
+    if (item_index() >= face_count) return;
+    uint place = first_face + item_index();
+    faces[place] = face_mean(place, face_list[place]);
 }

@@ -46,6 +46,6 @@ void main()
         sum /= column_weight(voxel, direction, 0);
 #endif
         sum /= max(sum.a, 1.0);  // surfaces behind each other cover no more than the whole
-        store_texel(atlas_texel(direction, voxel, 0), vec4(sum.rgb / light_scale, sum.a));
+        store_texel(direction, voxel, 0, vec4(sum.rgb / light_scale, sum.a));
     }
 }

@@ -50,5 +50,5 @@ void main()
     uint place = item_index();
     if (place >= levels[level].count) return;
     ivec3 voxel = unpack_voxel(occupied[begin + place]);
-    for (int face = 0; face < kFaceCount; ++face) store_texel(atlas_texel(face, voxel, level), filtered(face, voxel));
+    for (int face = 0; face < kFaceCount; ++face) store_texel(face, voxel, level, filtered(face, voxel));
 }

@@ -2,14 +2,14 @@
 #include "07_anisotropic_mips/pyramid.glsl"
 
 #if FORMAT == 0
-layout(rgba16f, binding = 0) writeonly uniform image3D light;
+layout(rgba16f, binding = 0) writeonly uniform STORED_IMAGE light;
 const float kLargestStored = 65504.0;
 #elif FORMAT == 1
-layout(rgba8, binding = 0) writeonly uniform image3D light;
+layout(rgba8, binding = 0) writeonly uniform STORED_IMAGE light;
 const float kLargestStored = 1.0;
 #else
-layout(r11f_g11f_b10f, binding = 0) writeonly uniform image3D light;
-layout(r8, binding = 1) writeonly uniform image3D coverage;
+layout(r11f_g11f_b10f, binding = 0) writeonly uniform STORED_IMAGE light;
+layout(r8, binding = 1) writeonly uniform STORED_IMAGE coverage;
 const float kLargestStored = 64512.0;
 #endif
 
@@ -22,16 +22,18 @@ float nearest_short(float v, uint lost)
     return unpackHalf2x16((bits + (1u << lost >> 1)) >> lost << lost).x;
 }
 // snippet: store_texel
-void store_texel(ivec3 texel, vec4 stored)
+void store_texel(int face, ivec3 voxel, int level, vec4 stored)
 {
+    STORED_PLACE place = stored_place(face, voxel, level);
+    if (!is_stored(place)) return;
     vec4 v = min(stored, vec4(kLargestStored));
 #if FORMAT == 0
-    imageStore(light, texel, nearest_half(v));
+    imageStore(light, place, nearest_half(v));
 #elif FORMAT == 1
-    imageStore(light, texel, round(v * 255.0) / 255.0);
+    imageStore(light, place, round(v * 255.0) / 255.0);
 #else
-    imageStore(light, texel, vec4(nearest_short(v.r, 4u), nearest_short(v.g, 4u), nearest_short(v.b, 5u), 0.0));
-    imageStore(coverage, texel, vec4(round(v.a * 255.0) / 255.0));
+    imageStore(light, place, vec4(nearest_short(v.r, 4u), nearest_short(v.g, 4u), nearest_short(v.b, 5u), 0.0));
+    imageStore(coverage, place, vec4(round(v.a * 255.0) / 255.0));
 #endif
 }
 // end snippet

@@ -10,6 +10,7 @@ uniform vec4 parts;          // direct, diffuse, specular, emission: 1 or 0
 uniform bool show_ambient;
 uniform float bounce_strength;  // artistic, 1 = right
 uniform float ao_strength;      // artistic, 0 = right
+uniform float direct_ao_strength;  // the same for direct light
 uniform vec3 sky_radiance;
 layout(location = 0) out vec4 color;
 
@@ -24,7 +25,8 @@ void main()
     float ambient = gathered.a;
     vec3 indirect = bounce_strength * mix(1.0, ambient, ao_strength) *
                     (parts.y * surface.albedo * gathered.rgb + parts.z * at(specular_light, pixel).rgb);
-    vec3 radiance = parts.x * at(direct_light, pixel).rgb + indirect + parts.w * surface.emission;
+    vec3 direct = mix(1.0, ambient, direct_ao_strength) * parts.x * at(direct_light, pixel).rgb;
+    vec3 radiance = direct + indirect + parts.w * surface.emission;
     if (show_ambient) radiance = vec3(ambient);
     vec3 background = show_ambient ? vec3(1.0) : min(dot(parts, vec4(1.0)), 1.0) * sky_radiance * parts.w;
     color = surface.covered ? vec4(radiance, 1.0) : vec4(background, 0.0);

@@ -27,9 +27,12 @@ vec3 light_from(vec3 origin, vec3 direction, float t, int level)
 // snippet: trace_cone
 ConeLight trace_cone(RayStart start, vec3 direction, float tan_half, float threshold)
 {
-    WalkEnd end = walk(start, direction, threshold);
+    float light_reach = reach_of(range_diffuse), occlusion_reach = reach_of(range_ao);
+    WalkEnd end = walk(start, direction, threshold, max(light_reach, occlusion_reach));
     if (!end.stopped) return ConeLight(sky_radiance, 0.0);
+    float occlusion = end.t <= occlusion_reach ? occlusion_at(end.t) : 0.0;
+    if (end.t > light_reach) return ConeLight(sky_radiance, occlusion);
     vec3 radiance = light_from(start.position, direction, end.t, level_of(2.0 * end.t * tan_half));
-    return ConeLight(radiance, occlusion_at(end.t));
+    return ConeLight(radiance, occlusion);
 }
 // end snippet

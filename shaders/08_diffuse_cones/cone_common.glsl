@@ -12,6 +12,9 @@
 
 uniform vec3 sky_radiance;  // W/(sr m^2), what leaves the grid sees
 uniform float ao_falloff;   // 1/m, lambda of ambient occlusion
+// Beyond these nothing is seen but the sky, m; 0: none.
+uniform float range_diffuse;
+uniform float range_ao;
 
 struct ConeLight {
     vec3 radiance;    // mean over the cone, the sky's included, W/(sr m^2)

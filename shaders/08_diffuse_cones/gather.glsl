@@ -1,6 +1,7 @@
 // Cosine-weighted mean of the radiance over the hemisphere above a surface, by a set of cones: E / pi.
-// MARCH 1: cones that march, for comparison.
-#if MARCH
+// MARCH 1: cones that march, for comparison. A chapter with a trace_cone() of its own includes that before and says so.
+#ifdef OWN_TRACE_CONE
+#elif MARCH
 #include "08_diffuse_cones/march.glsl"
 #else
 #include "08_diffuse_cones/cone.glsl"

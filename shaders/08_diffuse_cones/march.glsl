@@ -5,10 +5,11 @@
 #include "08_diffuse_cones/cone_common.glsl"
 
 uniform float step_factor;        // step over the diameter of the cone, or over a voxel where the cone is thinner
-uniform int transmittance_model;  // 0: linear, 1: exponential
+uniform int transmittance_model;  // 0: linear, 1: exponential, 2: per sample
+uniform bool squared_weights;     // of a voxel's sides: d^2 instead of |d|
 
-// What a cone meets in a voxel's length: the three faces that look against the direction, each by |d_a|. a: coverage,
-// rgb: radiance premultiplied with it.
+// What a cone meets in a voxel's length: the three faces that look against the direction, each by |d_a|, its projected
+// area, or by d_a^2, for comparison. a: coverage, rgb: radiance premultiplied with it.
 vec4 sample_level(vec3 position, vec3 direction, int level, float t)
 {
     float voxel = float(1 << level);
@@ -16,7 +17,8 @@ vec4 sample_level(vec3 position, vec3 direction, int level, float t)
     vec3 q = position / voxel, p = clamp(q, low, high);
     // Along its own axis what lies on the bounds fades out beyond them as in any linear filter.
     vec3 inside = step(grid.content_min.xyz, position) * step(position, grid.content_max.xyz);
-    vec3 weight = abs(direction) * max(1.0 - abs(q - p), vec3(0.0)) * inside.yzx * inside.zxy;
+    vec3 side = abs(direction) * (squared_weights ? abs(direction) : vec3(1.0));
+    vec3 weight = side * max(1.0 - abs(q - p), vec3(0.0)) * inside.yzx * inside.zxy;
     ivec3 faces = ivec3(0, 2, 4) + ivec3(lessThan(direction, vec3(0.0)));
     COUNT_LIGHT_FETCHES(3 * kTexelsPerFetch)
     vec4 sum = weight.x * light_at(faces.x, p, level) + weight.y * light_at(faces.y, p, level) +
@@ -37,8 +39,35 @@ float stopped_share(float coverage, float open)
 }
 // end snippet
 
+// As published (Villegas 2016, section 3.6; occlusion: section 3.6.3, by the cone's radius): from a voxel along the
+// direction on, every sample stops its opacity of what is left of the cone. The step is not in it: with half the step
+// twice as much is stopped.
+// snippet: per_sample
+ConeLight trace_per_sample(RayStart start, vec3 direction, float tan_half)
+{
+    const float kLeastStep = 0.0625;  // voxels; there is none in print, and thin cones would never end
+    float exit = exit_distance(start.position, direction, 0.0), occlusion = 0.0, opacity = 0.0;
+    float end = exit_distance(start.position, direction, max(2.0 * exit * tan_half, 1.0));
+    vec3 radiance = vec3(0.0);
+    for (float t = 1.0; t < end && opacity < 1.0;) {
+        float diameter = 2.0 * t * tan_half, lod = clamp(log2(max(diameter, 1.0)), 0.0, float(grid.size.w - 1));
+        int level = int(lod), next = min(level + 1, grid.size.w - 1);
+        vec3 position = start.position + direction * t;
+        vec4 met = mix(sample_level(position, direction, level, t), sample_level(position, direction, next, t),
+                       lod - float(level));
+        float stopped = (1.0 - opacity) * min(met.a, 1.0);
+        radiance += light_scale * met.rgb * (stopped / max(met.a, 1e-6));
+        opacity += stopped;
+        occlusion += (1.0 - occlusion) * min(met.a, 1.0) * occlusion_at(0.5 * diameter);
+        t += max(diameter * step_factor, kLeastStep);
+    }
+    return ConeLight(radiance + (1.0 - opacity) * sky_radiance, occlusion);
+}
+// end snippet
+
 ConeLight trace_cone(RayStart start, vec3 direction, float tan_half, float threshold)
 {
+    if (transmittance_model == 2) return trace_per_sample(start, direction, tan_half);
     // Cones end where they have left the bounds by their own width: a wall there has then been passed wholly.
     float exit = exit_distance(start.position, direction, 0.0);
     float end = exit_distance(start.position, direction, max(2.0 * exit * tan_half, 1.0));

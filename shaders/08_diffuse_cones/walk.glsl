@@ -7,7 +7,11 @@
 // to one.
 #include "common/voxel_grid.glsl"
 
-layout(binding = kWalkVolumeUnit) uniform usampler3D walk_volume;
+#ifdef WALK_STORAGE
+#include WALK_STORAGE
+#else
+#include "08_diffuse_cones/walk_volume.glsl"
+#endif
 
 #ifndef COUNT_WALK_STEPS  // chapter 14 counts
 #define COUNT_WALK_STEPS(count)
@@ -26,6 +30,10 @@ const float kSheetBlur = 1.5;
 // Rays end this far before a side, so that rounding does not carry them over it.
 const float kBeforeSide = 1e-3;
 
+// Ways end here where nothing else ends them, voxels; range_m: 0 for none (chapter 16).
+const float kNoRange = 1e30;
+float reach_of(float range_m) { return range_m > 0.0 ? range_m / grid.origin.w : kNoRange; }
+
 // Where rays of a surface begin.
 struct RayStart {
     vec3 position;  // grid space
@@ -36,6 +44,7 @@ struct RayStart {
 // What does not change along a ray.
 struct WalkRay {
     vec3 direction, inverse, first_sides, reach;
+    vec3 down;          // 1 where it goes towards lower coordinates
     vec3 nudge;         // into the cell that the ray enters, where it is on a side to within rounding
     int octant_shift;   // of its leaps' bits
     ivec3 face_shifts;  // of the coverage that looks against the ray, one side for each axis
@@ -49,6 +58,7 @@ WalkRay walk_ray(vec3 origin, vec3 direction)
     ray.inverse = 1.0 / ray.direction;
     ray.first_sides = (1.0 - up - corner) * ray.inverse;
     ray.reach = abs(ray.inverse);
+    ray.down = 1.0 - up;
     ray.nudge = corner + (2.0 * up - 1.0) * 1e-3;
     ray.octant_shift = 3 * int(dot(up, vec3(1.0, 2.0, 4.0)));
     ray.face_shifts = ivec3(0, 10, 20) + 5 * (1 - ivec3(up));
@@ -68,9 +78,10 @@ WalkStep walk_step(WalkRay ray, float t)
     vec3 cell = floor(ray.nudge + ray.direction * t);
     COUNT_WALK_STEPS(1)
     WalkStep s;
-    s.word = texelFetch(walk_volume, ivec3(cell), 0).r;
+    float unit;
+    s.word = walk_word(cell, ray.down, unit);
     s.occupied = s.word >= 0x80000000u;
-    float side = s.occupied ? 1.0 : float(1u << (s.word >> ray.octant_shift & 7u));
+    float side = s.occupied ? 1.0 : unit * float(1u << (s.word >> ray.octant_shift & 7u));
     vec3 ends = cell * ray.inverse + ray.first_sides + side * ray.reach;
     s.end = min(ends.x, min(ends.y, ends.z));
     return s;
@@ -92,22 +103,25 @@ float coverage_left(WalkRay ray, uint word) { return dot(abs(ray.direction), cov
 // much of it is in the cell is known from its side across the axis b that the normal is nearest to of those along which
 // the ray goes forward: coverage A_b = s |n_b|, so s |n_a| on the others. A thin sheet has a side on its back in the
 // same voxel; it is left out until the ray has risen above its blur.
-// snippet: coverage_met_above
-float coverage_met_above(WalkRay ray, uint word, RayStart start, float t)
+// snippet: coverage_above
+vec3 coverage_above(vec3 direction, vec3 met, vec3 leaving, float unit, RayStart start, float t)
 {
-    vec3 met = coverage_bits(word, ray.face_shifts);
-    vec3 leaving = coverage_bits(word, leaving_shifts(ray));
-    vec3 n = abs(start.normal), forward = n * step(0.0, start.normal * ray.direction);
+    vec3 n = abs(start.normal), forward = n * step(0.0, start.normal * direction);
     vec2 nearest = forward.x >= forward.y && forward.x >= forward.z ? vec2(leaving.x, forward.x)
                    : forward.y >= forward.z                         ? vec2(leaving.y, forward.y)
                                                                     : vec2(leaving.z, forward.z);
     vec3 shown = (n - forward) / max(nearest.y, 0.1);  // of its own surface, per coverage A_b
-    vec3 rounding = 0.5 / kWalkUnits * (1.0 + shown);  // both coverages are rounded to units
+    vec3 rounding = 0.5 * unit * (1.0 + shown);        // both coverages are rounded to units
     vec3 others = max(met - shown * nearest.x - rounding, vec3(0.0));
-    vec3 not_sheet = 1.0 - start.sheet * step(t * dot(start.sheet, abs(ray.direction)), kSheetBlur);
-    return dot(abs(ray.direction), others * not_sheet);
+    return others * (1.0 - start.sheet * step(t * dot(start.sheet, abs(direction)), kSheetBlur));
 }
 // end snippet
+
+float coverage_met_above(WalkRay ray, uint word, RayStart start, float t)
+{
+    vec3 met = coverage_bits(word, ray.face_shifts), leaving = coverage_bits(word, leaving_shifts(ray));
+    return dot(abs(ray.direction), coverage_above(ray.direction, met, leaving, 1.0 / kWalkUnits, start, t));
+}
 
 // Until where a ray is in the blur of the surface that it starts from; 0 where there is none.
 float own_blur_end(RayStart start, vec3 direction)
@@ -144,10 +158,10 @@ struct WalkEnd {
     float t;  // voxels
 };
 
-WalkEnd walk(RayStart start, vec3 direction, float threshold)
+WalkEnd walk(RayStart start, vec3 direction, float threshold, float reach)
 {
     WalkRay ray = walk_ray(start.position, direction);
-    float exit = exit_distance(start.position, direction, 0.0), end = exit - kBeforeSide;
+    float exit = min(exit_distance(start.position, direction, 0.0), reach), end = exit - kBeforeSide;
     float own_end = min(own_blur_end(start, direction), end);
     float t = 0.0, covered = 0.0, run = 0.0, run_t = 0.0;
     // snippet: walk
@@ -173,8 +187,10 @@ WalkEnd walk(RayStart start, vec3 direction, float threshold)
     }
     // end snippet
     if (covered >= threshold) return WalkEnd(true, run_t / max(run, 1e-6));
-    return WalkEnd(closed_at(ray, start.position, exit), exit);
+    return WalkEnd(exit < reach && closed_at(ray, start.position, exit), exit);
 }
+
+WalkEnd walk(RayStart start, vec3 direction, float threshold) { return walk(start, direction, threshold, kNoRange); }
 
 // Share of a ray that surfaces stop on the way to `end`. In a slanted wall the staircase of its voxels leaves some rays
 // a third too little. But what enters a solid leaves it again, at a place of another phase: the larger of both sums is

@@ -6,9 +6,14 @@
 #include "05_atomic_averaging/face_index.glsl"
 #include "07_anisotropic_mips/projected_area.glsl"
 #include "07_anisotropic_mips/column_weight.glsl"
+#define STORES_WALK
+#ifdef WALK_STORAGE
+#include WALK_STORAGE
+#else
+#include "08_diffuse_cones/walk_volume.glsl"
+#endif
 
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
-layout(r32ui, binding = 0) writeonly uniform uimage3D walk_volume;
 layout(std430, binding = kWalkCellBinding) readonly buffer WalkCells { uint cell_count; uint cells[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
 
@@ -44,5 +49,5 @@ void main()
         code |= units.x << (10 * axis) | units.y << (10 * axis + 5);
     }
     // end snippet
-    imageStore(walk_volume, cell, uvec4(code));
+    store_walk(cell, code);
 }

@@ -4,8 +4,13 @@
 #include "common/voxel_grid.glsl"
 #include "common/item_index.glsl"
 #include "08_diffuse_cones/walk_bits.glsl"
+#define STORES_WALK
+#ifdef WALK_STORAGE
+#include WALK_STORAGE
+#else
+#include "08_diffuse_cones/walk_volume.glsl"
+#endif
 
-layout(r32ui, binding = 0) writeonly uniform uimage3D walk_volume;
 layout(std430, binding = kWalkCellBinding) buffer WalkCells { uint cell_count; uint cells[]; };  // 10 bits an axis
 
 // Number of cubes along the octant that are empty, of sides 2, 4, ... 64: three planes of bits, 32 cells at a time.
@@ -43,7 +48,7 @@ void main()
             uvec3 count = leaps[octant] >> bit & 1u;
             code |= (count.x | count.y << 1 | count.z << 2) << (3 * octant);
         }
-        if ((full >> bit & 1u) == 0u) imageStore(walk_volume, first + ivec3(bit, 0, 0), uvec4(code));
+        if ((full >> bit & 1u) == 0u) store_walk(first + ivec3(bit, 0, 0), code);
     }
     // end snippet
     uint place = full != 0u ? atomicAdd(cell_count, uint(bitCount(full))) : 0u;

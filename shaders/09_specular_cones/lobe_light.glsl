@@ -3,7 +3,9 @@
 #include "common/g_buffer.glsl"
 #include "common/brdf.glsl"
 #include "common/frame.glsl"
+#ifndef OWN_TRACE_LOBE  // a chapter with a trace_lobe() of its own includes that before and says so
 #include "08_diffuse_cones/cone.glsl"
+#endif
 #include "09_specular_cones/specular_surface.glsl"
 
 #ifndef STORE
@@ -14,6 +16,7 @@ uniform int specular_cones;
 uniform bool interleave;  // neighbours trace other parts of the lobe and share them
 uniform float lobe_share;
 uniform float start_offset;
+uniform float range_specular;  // m, beyond it nothing is seen but the sky; 0: none
 uniform float turn;       // rad, of the points in the lobe: another one for each of many pictures of the same scene
 layout(location = 0) out vec4 lobe_light;  // rgb: mean radiance in the lobe, a: 1 where there is a lobe
 
@@ -50,13 +53,15 @@ float smith_lambda(float cos_theta, float alpha)
 
 const float kGoldenAngle = 2.39996323;  // rad
 
+#ifndef OWN_TRACE_LOBE
 // Mean radiance along a cone: every run of surfaces that it meets by the share that it stops. Few cones share a lobe,
 // so none leaves to chance which of them it sees.
 // snippet: trace_lobe
 vec3 trace_lobe(RayStart start, vec3 direction, float tan_half)
 {
     WalkRay ray = walk_ray(start.position, direction);
-    float exit = exit_distance(start.position, direction, 0.0), end = exit - kBeforeSide;
+    float reach = reach_of(range_specular);
+    float exit = min(exit_distance(start.position, direction, 0.0), reach), end = exit - kBeforeSide;
     float own_end = own_blur_end(start, direction), t = 0.0, open = 1.0;
     vec3 radiance = vec3(0.0);
     while (t < end && open > 1.0 - kStopped) {
@@ -67,11 +72,12 @@ vec3 trace_lobe(RayStart start, vec3 direction, float tan_half)
         open -= stopped;
     }
     if (open == 0.0) return radiance;
-    bool closed = closed_at(ray, start.position, exit);
+    bool closed = exit < reach && closed_at(ray, start.position, exit);
     return radiance + open * (closed ? light_from(start.position, direction, exit, level_of(2.0 * exit * tan_half))
                                      : sky_radiance);
 }
 // end snippet
+#endif
 
 void main()
 {

@@ -1,16 +1,23 @@
 #version 450 core
 // One bounce from voxel to voxel: every face reflects the mean of what the faces at the ends of its links reflect, and
 // what emitters and the sky send. One thread a face. EMITTERS 1: some surface shines. FIRST, LAST 1: the first bounce
-// of a run, the last one.
+// of a run, the last one. WARM 1: the first one begins with the last solution.
 #include "common/item_index.glsl"
 #include "common/voxel_counters.glsl"
 #include "12_second_bounce/links.glsl"
 
 layout(std430, binding = kRadianceBinding) readonly buffer DirectBuffer { vec4 direct[]; };          // reflected of direct light: R(0)
 layout(std430, binding = kLinkBinding) readonly buffer LinkBuffer { uint links[]; };
+#if EMITTERS
 layout(std430, binding = kFromEmittersBinding) readonly buffer EmittedBuffer { vec4 from_emitters[]; };  // E / pi
+#endif
 layout(std430, binding = kAlbedoBinding) readonly buffer AlbedoBuffer { uint albedo[]; };
+#if WARM
+layout(std430, binding = kRadianceBeforeBinding) readonly buffer BeforeBuffer { vec4 before[]; };         // of the last run
+uniform uint known_faces;  // the faces from here on have come since then
+#else
 layout(std430, binding = kRadianceBeforeBinding) readonly buffer BeforeBuffer { uvec2 before[]; };         // R(k - 1)
+#endif
 #if LAST
 layout(std430, binding = kRadianceAfterBinding) writeonly buffer AfterBuffer { vec4 after[]; };   // R(k)
 #else
@@ -20,7 +27,9 @@ layout(std430, binding = kChangeBinding) buffer ChangeBuffer { uint largest_chan
 uniform int links_per_face;
 uniform vec3 sky_radiance;
 
-#if FIRST
+#if WARM
+vec3 radiance_before(uint place) { return place < known_faces ? before[place].rgb : direct[place].rgb; }
+#elif FIRST
 vec3 radiance_before(uint place) { return direct[place].rgb; }
 #else
 vec3 radiance_before(uint place) { return unpack_radiance(before[place]); }

@@ -15,8 +15,10 @@
 layout(binding = kFaceIndexUnit) uniform usampler3D face_index;
 layout(std430, binding = kFaceListBinding) readonly buffer FaceListBuffer { uint face_list[]; };
 layout(std430, binding = kFaceBinding) readonly buffer FaceBuffer { VoxelFace faces[]; };
-layout(std430, binding = kLinkBinding) writeonly buffer LinkBuffer { uint links[]; };
+layout(std430, binding = kLinkBinding) buffer LinkBuffer { uint links[]; };
+#if EMITTERS
 layout(std430, binding = kFromEmittersBinding) writeonly buffer EmittedBuffer { vec4 from_emitters[]; };  // E / pi
+#endif
 layout(std430, binding = kAlbedoBinding) writeonly buffer AlbedoBuffer { uint albedo[]; };
 
 // A number in 0..1 that looks random (PCG: Jarzynski & Olano 2020).
@@ -56,6 +58,46 @@ uint face_met(vec3 position, vec3 direction, float u)
     return chosen;
 }
 
+#if SOME
+uniform uint kept_faces;                    // the places of the faces before it are what they were
+uniform vec3 changed_low, changed_high;  // grid space: outside nothing has changed
+
+// What rays see of a voxel is half a voxel around it in the walk volume and another one in what its cells are means of; where
+// they end they look at the eight voxels around, and one more for rounding.
+const float kReach = 3.0;
+
+// Whether the way from `origin` to distance `length` comes by what has changed.
+bool comes_by(vec3 origin, vec3 direction, float length)
+{
+    vec3 d = mix(direction, vec3(1e-6), lessThan(abs(direction), vec3(1e-6)));
+    vec3 a = (changed_low - kReach - origin) / d, b = (changed_high + kReach - origin) / d;
+    vec3 enter = min(a, b), leave = max(a, b);
+    float first = max(max(enter.x, enter.y), max(enter.z, 0.0));
+    float last = min(min(leave.x, leave.y), min(leave.z, length));
+    return first <= last;
+}
+
+// Whether any link of the face may be another one now.
+bool is_outdated(uint place, RayStart start, mat3 frame, int set)
+{
+    // snippet: outdated
+    if (place >= kept_faces) return true;
+    bool outdated = comes_by(start.position, start.normal, 0.0);
+    for (int i = 0; i < cone_count && !outdated; ++i) {
+        uint link = links[place * uint(cone_count) + uint(i)];
+        vec3 direction = frame * cones[set * cone_count + i].xyz;
+        float length = exit_distance(start.position, direction, 1.0);
+        if (link < kept_faces) {
+            vec3 end = vec3(unpack_voxel(face_list[link])) + 0.5;
+            length = min(length, distance(end, start.position) + kReach);
+        }
+        outdated = link >= kept_faces && link < kSkyLink || comes_by(start.position, direction, length);
+    }
+    // end snippet
+    return outdated;
+}
+#endif
+
 void main()
 {
     uint place = item_index();
@@ -67,6 +109,9 @@ void main()
     int axis = int(face_list[place] >> 27) >> 1, set = voxel[(axis + 1) % 3] + 8 * voxel[(axis + 2) % 3];
     RayStart start = start_above(position, normal, start_offset);
     mat3 frame = frame_around(normal);
+#if SOME
+    if (!is_outdated(place, start, frame, set)) return;
+#endif
     vec3 emitted = vec3(0.0);
     // snippet: links
     for (int i = 0; i < cone_count; ++i) {
@@ -74,7 +119,7 @@ void main()
         vec3 direction = frame * cones[ray].xyz;
         WalkEnd end = walk(start, direction, threshold_of(ray));
         uint link = kSkyLink;
-        if (end.stopped) link = face_met(start.position + direction * end.t, direction, hashed(place * uint(cone_count) + uint(i)));
+        if (end.stopped) link = face_met(start.position + direction * end.t, direction, hashed(face_list[place] * uint(cone_count) + uint(i)));
         links[place * uint(cone_count) + uint(i)] = link;
 #if EMITTERS == 2
         if (link < kSkyLink) emitted += cones[ray].w * faces[link].emission.rgb;
@@ -87,6 +132,8 @@ void main()
         emitted = unshadowed_light(position, normal) * arriving_share(samples.arriving, samples.unshadowed);
     }
 #endif
+#if EMITTERS
     from_emitters[place] = vec4(emitted, 0.0);
+#endif
     albedo[place] = pack_albedo(face.albedo_area.rgb);
 }

@@ -64,5 +64,28 @@ CONEBOOK_CONSTANT int kRadianceAfterBinding = 2;
 CONEBOOK_CONSTANT int kLinkBinding = 4;
 CONEBOOK_CONSTANT int kChangeBinding = 6;
 CONEBOOK_CONSTANT int kAlbedoBinding = 7;
+// 15
+CONEBOOK_CONSTANT int kDynamicVoxelBinding = 1;
+CONEBOOK_CONSTANT int kDynamicCountBinding = 3;
+// 16
+CONEBOOK_CONSTANT int kBrickVoxelBinding = 0;
+CONEBOOK_CONSTANT int kBrickTotalBinding = 1;
+CONEBOOK_CONSTANT int kBrickBinding = 3;
+
+// 17: node, node brick and brick list keep their numbers; the rest is for building.
+CONEBOOK_CONSTANT int kNodeBinding = 4;
+CONEBOOK_CONSTANT int kNodeBrickBinding = 6;
+CONEBOOK_CONSTANT int kTreeStateBinding = 0;
+CONEBOOK_CONSTANT int kNodePlaceBinding = 1;
+CONEBOOK_CONSTANT int kTreeBlockBinding = 3;
+CONEBOOK_CONSTANT int kVoxelNodeBinding = 3;
+CONEBOOK_CONSTANT int kBrickListBinding = 7;
+CONEBOOK_CONSTANT int kTreeWeightBinding = 0;
+CONEBOOK_CONSTANT int kReflectedBinding = 1;
+CONEBOOK_CONSTANT int kTreeChangeBinding = 7;
+// 19
+CONEBOOK_CONSTANT int kPatchBinding = 2;
+CONEBOOK_CONSTANT int kPatchLightBinding = 3;
+CONEBOOK_CONSTANT int kSightBinding = 4;
 
 CONEBOOK_SHARED_END

@@ -83,7 +83,7 @@ void expect_exact_pairs(const Soup& soup, const Bounds& bounds, int voxels)
     for (const Voxelizer voxelizer : {Voxelizer::raster, Voxelizer::compute}) {
         SoupPipeline pipeline(scene, bounds, voxels, voxelizer);
         pipeline.voxelize();
-        const auto list = pipeline.voxelizer().fragments().read<glm::uvec2>();
+        const auto list = pipeline.voxelizer().fragments().buffer().read<glm::uvec2>();
         std::set<Pair> found;
         for (std::size_t i = 0; i < pipeline.fragment_count(); ++i) {
             const GLuint p = list[i].y;

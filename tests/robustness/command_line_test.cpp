@@ -18,7 +18,7 @@
 namespace conebook {
 namespace {
 
-// Small pictures; chapters 01 to 03 have no grid.
+// Small pictures, and a small grid where there is one.
 std::string small(const std::string& program)
 {
     return std::string(" --headless ") + (has_voxels(program) ? "--set voxels=16 " : "");
