@@ -1,7 +1,7 @@
 // 20_form_factor_radiosity: patches, and the share of its light that each sends to every other, once for all light
 //
-// The scene is cut into patches. Form factors say what each of them sees of the others, directly and in mirrors; light is
-// then the solution of a linear system, with irradiance H as unknown:
+// The scene is cut into patches. Form factors say what each of them sees of the others, directly and in mirrors;
+// light is then the solution of a linear system, with irradiance H as unknown:
 //
 //     H_i = sum_j F^_ij (E_j + rho_j H_j),      B_i = E_i + rho_i H_i
 //
@@ -33,7 +33,7 @@ std::vector<View> light_and_patch_views()
 int main(int argc, char** argv)
 try {
     RadiosityParams params;
-    PickParams pick_params;
+    PatchPickParams pick_params;
     PixelParams pixel_params;
     ShadowMapParams shadow_map_params;
     CompositeParams composite_params;

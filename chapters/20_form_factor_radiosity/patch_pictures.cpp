@@ -172,13 +172,13 @@ const gl::Texture& UploadedPicture::set(const ImageF& picture)
     return texture_;
 }
 
-void add_parameters(ParameterTable& table, PickParams& params)
+void add_parameters(ParameterTable& table, PatchPickParams& params)
 {
     table.add("pick_x", params.pick_x, 0.0, 1.0, "", "whose form factors and hemicube are shown: place from the left");
     table.add("pick_y", params.pick_y, 0.0, 1.0, "", "and from the top");
 }
 
-std::uint32_t picked_patch(const Patches& patches, const PickParams& params, const Camera& camera, glm::ivec2 size)
+std::uint32_t picked_patch(const Patches& patches, const PatchPickParams& params, const Camera& camera, glm::ivec2 size)
 {
     const SceneTracer& tracer = patches.tracer();
     const Ray ray = camera_ray(camera, visible_depths(camera, tracer.scene().bounds), params.pick_x * float(size.x),
@@ -208,7 +208,7 @@ std::optional<CornerValues> patch_view_values(const std::string& view, const Rad
     } else if (view == "form_factors") {
         if (picked != kNoPatch) {
             const FormFactorRow& row = radiosity.form_factors().rows[picked];
-            for (const FormFactor& f : row.direct) values[f.patch] += glm::vec3(f.share);
+            for (const FormFactorEntry& f : row.direct) values[f.patch] += glm::vec3(f.share);
             for (const MirroredFormFactor& f : row.mirrored) values[f.patch] += f.share;
             float most = 0.0f;
             for (std::size_t i = 0; i < patches.size(); ++i) {

@@ -36,7 +36,8 @@ struct PixelParams {
 void add_parameters(ParameterTable& table, PixelParams& params);
 
 // Indirect specular light at each pixel, from its middle: one ray from a mirror, some from rougher lobes. They find
-// emission, direct and indirect light of the surface at their end, over further mirrors. Alpha 1 where there is a lobe.
+// emission, direct and indirect light of the surface at their end, over further mirrors. Alpha 1 where there is a
+// lobe.
 ImageF specular_picture(const Radiosity& radiosity, const RadiosityParams& params, int lobe_rays,
                         const std::vector<Light>& lights, const Camera& camera, glm::ivec2 size);
 
@@ -63,20 +64,22 @@ private:
 };
 
 // What belongs to one patch, or to the patch at one place of the picture.
-struct PickParams {
+struct PatchPickParams {
     float pick_x = 0.5f, pick_y = 0.5f;  // place in the picture: 0 left, 1 right; 0 top, 1 bottom
 };
-void add_parameters(ParameterTable& table, PickParams& params);
+void add_parameters(ParameterTable& table, PatchPickParams& params);
 // kNoPatch where the picture has no surface.
-std::uint32_t picked_patch(const Patches& patches, const PickParams& params, const Camera& camera, glm::ivec2 size);
+std::uint32_t picked_patch(const Patches& patches, const PatchPickParams& params, const Camera& camera,
+                           glm::ivec2 size);
 
 // patches, radiosity, form_factors, hemicube.
 std::vector<View> patch_views();
-// The first three of them as one value a patch; nothing when the name is none of them. form_factors: F_ij / A_j over the
-// largest of them, the picked patch itself blue.
+// The first three of them as one value a patch; nothing when the name is none of them. form_factors: F_ij / A_j
+// over the largest of them, the picked patch itself blue.
 std::optional<CornerValues> patch_view_values(const std::string& view, const Radiosity& radiosity,
                                               std::uint32_t picked);
-// The item buffer of a patch, each texel in the colour of the patch that it sees; the sides folded down round the top.
+// The item buffer of a patch, each texel in the colour of the patch that it sees; the sides folded down round the
+// top.
 ImageF hemicube_picture(Radiosity& radiosity, const RadiosityParams& params, std::uint32_t patch, glm::ivec2 size);
 
 }  // namespace conebook
