@@ -31,7 +31,7 @@ struct FormFactorParams {
 void add_parameters(ParameterTable& table, FormFactorParams& params);
 
 // F_ij of what patch i sees directly: the share of the cosine-weighted hemisphere over i that j fills.
-struct FormFactor {
+struct FormFactorEntry {
     std::uint32_t patch;
     float share;
 };
@@ -43,7 +43,7 @@ struct MirroredFormFactor {
 
 // Rows of F^. Sparse: what a patch does not see is not there. Each row's entries are in the order of the patches.
 struct FormFactorRow {
-    std::vector<FormFactor> direct;
+    std::vector<FormFactorEntry> direct;
     std::vector<MirroredFormFactor> mirrored;
 };
 struct FormFactors {
@@ -74,12 +74,12 @@ public:
     FormFactorRow finish();
 
 private:
-    std::vector<FormFactor> direct_;
+    std::vector<FormFactorEntry> direct_;
     std::vector<MirroredFormFactor> mirrored_;
 };
 
-// Follows a ray from a mirror to what it meets, over further mirrors. `hit` was met along `direction` (unit) with `share`
-// of the row. Returns the number of rays.
+// Follows a ray from a mirror to what it meets, over further mirrors. `hit` was met along `direction` (unit) with
+// `share` of the row. Returns the number of rays.
 int follow_mirrors(const Patches& patches, SurfaceHit hit, glm::vec3 direction, glm::vec3 share, int reflections,
                    RowBuilder& row);
 

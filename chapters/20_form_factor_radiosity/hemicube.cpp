@@ -122,7 +122,8 @@ std::vector<Item> Hemicubes::render(const std::vector<HemicubeView>& views, int 
         program_.set("clip_plane", view.clip);
         for (int face = 0; face < 5; ++face) {
             // snippet: face_matrix
-            // The top looks along n. A side looks along its axis and keeps the half above the horizon: 0 <= y / w <= 1.
+            // The top looks along n. A side looks along its axis and keeps the half above the horizon: 0 <= y / w
+            // <= 1.
             const glm::vec3 t = view.axes[0], b = view.axes[1], n = view.axes[2];
             const glm::vec3 sides[4] = {t, b, -t, -b}, rights[4] = {b, -t, -b, t};
             const glm::vec3 forward = face == 0 ? n : sides[face - 1], right = face == 0 ? t : rights[face - 1];

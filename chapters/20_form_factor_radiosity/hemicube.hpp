@@ -1,4 +1,5 @@
-// Item buffers: what a patch sees, rasterized on the five faces of a hemicube (Cohen & Greenberg 1985, "The hemi-cube").
+// Item buffers: what a patch sees, rasterized on the five faces of a hemicube (Cohen & Greenberg 1985, "The
+// hemi-cube").
 #pragma once
 
 #include "20_form_factor_radiosity/form_factors.hpp"

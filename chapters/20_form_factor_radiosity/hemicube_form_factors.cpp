@@ -42,7 +42,8 @@ FlatMirrors flat_mirrors(const Patches& patches)
     return mirrors;
 }
 
-// An item buffer that is still to be made: the same texels as the first one, but only those that a mirror sends there.
+// An item buffer that is still to be made: the same texels as the first one, but only those that a mirror sends
+// there.
 struct Job {
     std::uint32_t patch = 0;  // whose row it belongs to
     HemicubeView view;
@@ -107,7 +108,8 @@ public:
             return;
         }
         // snippet: mirrored_view
-        // The eye and its axes reflected in the mirror's plane: there the same texel looks along the same ray, reflected.
+        // The eye and its axes reflected in the mirror's plane: there the same texel looks along the same ray,
+        // reflected.
         const MirrorPlane& m = mirrors_.planes[std::size_t(plane)];
         Job& mirrored = next[plane];
         if (mirrored.texels.empty()) {

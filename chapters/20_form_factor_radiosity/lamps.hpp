@@ -5,8 +5,9 @@
 
 namespace conebook {
 
-// Of a small surface at x, normal n, towards a triangle that nothing hides, its part below the horizon cut off: Lambert's
-// formula (Baum et al. 1989, "Improving radiosity solutions through the use of analytically determined form-factors", 3).
+// Of a small surface at x, normal n, towards a triangle that nothing hides, its part below the horizon cut off:
+// Lambert's formula (Baum et al. 1989, "Improving radiosity solutions through the use of analytically determined
+// form-factors", 3).
 double point_to_triangle(const glm::dvec3& x, const glm::dvec3& n, const std::array<glm::dvec3, 3>& corners);
 
 class Lamps {
@@ -20,8 +21,8 @@ public:
     bool empty() const { return lamps_.empty(); }
     bool has(std::uint32_t patch) const { return !empty() && is_lamp_[patch]; }
 
-    // Calls found(patch, form factor) for each lamp that a surface at `x` (on it, not above) with normal n sees, by `rays`
-    // rays to each; sample k of `seed` is another one each time. Returns the number of rays.
+    // Calls found(patch, form factor) for each lamp that a surface at `x` (on it, not above) with normal n sees, by
+    // `rays` rays to each; sample k of `seed` is another one each time. Returns the number of rays.
     template <typename Found>
     int see(const Patches& patches, const glm::vec3& x, const glm::vec3& n, std::uint32_t k, std::uint64_t seed,
             std::uint32_t rays, Found found) const

@@ -1,7 +1,7 @@
 // 20_form_factor_radiosity: patches, and the share of its light that each sends to every other, once for all light
 //
-// The scene is cut into patches. Form factors say what each of them sees of the others, directly and in mirrors; light is
-// then the solution of a linear system, with irradiance H as unknown:
+// The scene is cut into patches. Form factors say what each of them sees of the others, directly and in mirrors;
+// light is then the solution of a linear system, with irradiance H as unknown:
 //
 //     H_i = sum_j F^_ij (E_j + rho_j H_j),      B_i = E_i + rho_i H_i
 //
@@ -33,7 +33,7 @@ std::vector<View> light_and_patch_views()
 int main(int argc, char** argv)
 try {
     RadiosityParams params;
-    PickParams pick_params;
+    PatchPickParams pick_params;
     PixelParams pixel_params;
     ShadowMapParams shadow_map_params;
     CompositeParams composite_params;
@@ -51,11 +51,10 @@ try {
     GBufferViewPass g_buffer_view(app.shaders());
     DirectLightingPass direct_lighting(app.shaders(), Shadows::maps);
     PatchValuePass patch_values(app.shaders());
-    SpecularPass specular_light(app.shaders());
     CompositePass composite(app.shaders());
     BoxFilterPass box_filter(app.shaders());
     ToneMapPass tone_map(app.shaders());
-    UploadedPicture mirrors, unfolded;
+    UploadedPicture specular, unfolded;
     Revision shown = 0;
 
     app.each_frame([&] {
@@ -97,17 +96,13 @@ try {
                                          {&radiosity, radiosity.corners_revision()});
         });
 
-        // Mirrors show surfaces and their light along one ray a pixel.
+        // Mirrors and rougher lobes: rays from each pixel to surfaces and their light.
         const gl::Texture* reflected = nullptr;
-        if (parts.specular > 0.0f && has_specular_surfaces(app.scene())) {
-            const gl::Texture* in_mirrors = nullptr;
-            if (radiosity.patches().has_mirrors())
-                app.pass("mirrors", [&] {
-                    in_mirrors =
-                        &mirrors.set(mirror_picture(radiosity, params, scene.lights(), app.scene_camera(), samples));
-                });
-            app.pass("specular light", [&] { reflected = &specular_light.run(g_buffer, *gathered, in_mirrors); });
-        }
+        if (parts.specular > 0.0f && has_specular_surfaces(app.scene()))
+            app.pass("specular light", [&] {
+                reflected = &specular.set(specular_picture(radiosity, params, pixel_params.lobe_rays, scene.lights(),
+                                                           app.scene_camera(), samples));
+            });
 
         // The sum of the parts, or another view.
         const gl::Texture* linear = nullptr;

@@ -15,7 +15,7 @@ std::uint64_t edge_name(std::uint32_t a, std::uint32_t b)
 
 }  // namespace
 
-PatchMesh::PatchMesh(const Scene& scene)
+BisectedMesh::BisectedMesh(const Scene& scene)
 {
     // Walls of several draws share their corners: equal positions are one point, whatever their normals.
     std::map<std::array<float, 3>, std::uint32_t> known;
@@ -36,7 +36,7 @@ PatchMesh::PatchMesh(const Scene& scene)
     leaf_count_ = nodes_.size();
 }
 
-PatchMesh::Edge PatchMesh::edge(std::uint32_t node, int k) const
+BisectedMesh::Edge BisectedMesh::edge(std::uint32_t node, int k) const
 {
     const auto& corners = nodes_[node].corners;
     const std::uint32_t a = corners[std::size_t(k + 1) % 3], b = corners[std::size_t(k + 2) % 3];
@@ -44,7 +44,7 @@ PatchMesh::Edge PatchMesh::edge(std::uint32_t node, int k) const
     return {glm::dot(way, way), edge_name(a, b)};
 }
 
-int PatchMesh::longest(std::uint32_t node) const
+int BisectedMesh::longest(std::uint32_t node) const
 {
     int best = 0;
     for (int k = 1; k < 3; ++k)
@@ -52,21 +52,21 @@ int PatchMesh::longest(std::uint32_t node) const
     return best;
 }
 
-double PatchMesh::longest_edge(std::uint32_t node) const { return std::sqrt(edge(node, longest(node)).length2); }
+double BisectedMesh::longest_edge(std::uint32_t node) const { return std::sqrt(edge(node, longest(node)).length2); }
 
-double PatchMesh::area(std::uint32_t node) const
+double BisectedMesh::area(std::uint32_t node) const
 {
     const auto& c = nodes_[node].corners;
     const glm::dvec3 a(points_[c[0]]), b(points_[c[1]]), d(points_[c[2]]);
     return 0.5 * glm::length(glm::cross(b - a, d - a));
 }
 
-const std::vector<std::uint32_t>& PatchMesh::at_edge(std::uint32_t node, int k) const
+const std::vector<std::uint32_t>& BisectedMesh::at_edge(std::uint32_t node, int k) const
 {
     return leaves_at_edge_.at(edge(node, k).name);
 }
 
-std::vector<std::uint32_t> PatchMesh::leaves() const
+std::vector<std::uint32_t> BisectedMesh::leaves() const
 {
     std::vector<std::uint32_t> found;
     for (std::uint32_t n = 0; n < nodes_.size(); ++n)
@@ -74,18 +74,18 @@ std::vector<std::uint32_t> PatchMesh::leaves() const
     return found;
 }
 
-void PatchMesh::enter(std::uint32_t node)
+void BisectedMesh::enter(std::uint32_t node)
 {
     for (int k = 0; k < 3; ++k) leaves_at_edge_[edge(node, k).name].push_back(node);
 }
 
-void PatchMesh::leave(std::uint32_t node)
+void BisectedMesh::leave(std::uint32_t node)
 {
     for (int k = 0; k < 3; ++k) std::erase(leaves_at_edge_[edge(node, k).name], node);
 }
 
 // snippet: bisect
-bool PatchMesh::bisect(std::uint32_t node, std::vector<std::uint32_t>& made)
+bool BisectedMesh::bisect(std::uint32_t node, std::vector<std::uint32_t>& made)
 {
     // First every neighbour at this edge that has a longer one. Edges grow on the way, so it ends.
     const Edge longest_edge = edge(node, longest(node));
@@ -131,7 +131,7 @@ bool PatchMesh::bisect(std::uint32_t node, std::vector<std::uint32_t>& made)
     return true;
 }
 
-void PatchMesh::refine(std::size_t leaves, double enough, const std::function<double(std::uint32_t)>& key)
+void BisectedMesh::refine(std::size_t leaves, double enough, const std::function<double(std::uint32_t)>& key)
 {
     using Entry = std::pair<double, std::uint32_t>;
     const auto later = [](const Entry& a, const Entry& b) {
@@ -152,14 +152,15 @@ void PatchMesh::refine(std::size_t leaves, double enough, const std::function<do
 }
 
 // snippet: find
-PatchPlace PatchMesh::find(std::uint32_t triangle, glm::vec2 uv) const
+PatchPlace BisectedMesh::find(std::uint32_t triangle, glm::vec2 uv) const
 {
     PatchPlace place{triangle, {1.0f - uv.x - uv.y, uv.x, uv.y}};
     while (nodes_[place.node].child >= 0) {
         const PatchNode& node = nodes_[place.node];
         const int apex = node.apex;
         const float p = place.weights[apex], a = place.weights[(apex + 1) % 3], b = place.weights[(apex + 2) % 3];
-        // The middle m of the edge a b takes the place of the corner that is further away: a A + b B = (a - b) A + 2 b M.
+        // The middle m of the edge a b takes the place of the corner that is further away: a A + b B = (a - b) A +
+        // 2 b M.
         place.node = std::uint32_t(node.child) + (a >= b ? 0 : 1);
         place.weights = a >= b ? glm::vec3(p, a - b, 2.0f * b) : glm::vec3(p, 2.0f * a, b - a);
     }

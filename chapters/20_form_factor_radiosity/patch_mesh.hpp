@@ -13,7 +13,7 @@ namespace conebook {
 
 // A triangle of the mesh. One that was bisected has two children, nodes[child] and nodes[child + 1].
 struct PatchNode {
-    std::array<std::uint32_t, 3> corners;  // PatchMesh::points, counter-clockwise from the front
+    std::array<std::uint32_t, 3> corners;  // BisectedMesh::points, counter-clockwise from the front
     std::array<glm::vec2, 3> uv;           // of each corner: barycentrics (u, v) in the triangle of the scene
     std::uint32_t triangle = 0;            // of the scene, in the order of Scene::indices
     std::int32_t child = -1, parent = -1;
@@ -27,17 +27,19 @@ struct PatchPlace {
 };
 
 // Longest-edge bisection (Rivara 1984, "Algorithms for refining triangular grids suitable for adaptive and multigrid
-// techniques"): an edge is bisected in all triangles that share it at once, and only when it is the longest of each. So
-// the mesh has no corner in the middle of an edge, and no angle is under half the least angle of the scene's triangles.
-class PatchMesh {
+// techniques"): an edge is bisected in all triangles that share it at once, and only when it is the longest of
+// each. So the mesh has no corner in the middle of an edge, and no angle is under half the least angle of the
+// scene's triangles.
+class BisectedMesh {
 public:
-    explicit PatchMesh(const Scene& scene);
+    explicit BisectedMesh(const Scene& scene);
 
-    // Bisects the leaf of the largest key, again and again, while there are fewer than `leaves` of them and the key is
-    // above `enough`. A key must not grow from a leaf to its children.
+    // Bisects the leaf of the largest key, again and again, while there are fewer than `leaves` of them and the key
+    // is above `enough`. A key must not grow from a leaf to its children.
     void refine(std::size_t leaves, double enough, const std::function<double(std::uint32_t)>& key);
 
-    // The leaf below a point of a triangle of the scene. A bisection halves barycentrics: no place is lost to rounding.
+    // The leaf below a point of a triangle of the scene. A bisection halves barycentrics: no place is lost to
+    // rounding.
     PatchPlace find(std::uint32_t triangle, glm::vec2 uv) const;
 
     const std::vector<glm::vec3>& points() const { return points_; }  // scene space, equal positions are one point

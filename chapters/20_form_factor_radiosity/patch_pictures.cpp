@@ -68,27 +68,11 @@ const gl::Texture& PatchValuePass::run(const GBuffer& g_buffer, const Patches& p
     return values_;
 }
 
-SpecularPass::SpecularPass(gl::Shaders& shaders)
-    : program_(shaders.load({"common/fullscreen.vert", "20_form_factor_radiosity/specular.frag"})),
-      black_(gl::texture_2d("black", GL_RGBA16F, {1, 1}))
-{
-    black_.clear();
-}
-
-const gl::Texture& SpecularPass::run(const GBuffer& g_buffer, const gl::Texture& gathered, const gl::Texture* mirrors)
-{
-    gl::fit_to_pixels(color_, framebuffer_, "specular light", GL_RGBA32F, g_buffer.size());
-    g_buffer.bind();
-    gathered.bind(16);
-    (mirrors != nullptr ? *mirrors : black_).bind(17);
-    gl::draw_pixels(program_, framebuffer_, no_vertices_, g_buffer.size());
-    return color_;
-}
-
 void add_parameters(ParameterTable& table, PixelParams& params)
 {
     table.add("pixel_samples", params.pixel_samples, 1, 4, "samples",
               "along each side of a pixel, in pictures of light");
+    table.add("lobe_rays", params.lobe_rays, 1, 64, "rays", "of a sample into lobes that are too rough for a mirror");
 }
 
 BoxFilterPass::BoxFilterPass(gl::Shaders& shaders)
@@ -106,41 +90,73 @@ const gl::Texture& BoxFilterPass::run(const gl::Texture& samples, int side)
     return color_;
 }
 
-ImageF mirror_picture(const Radiosity& radiosity, const RadiosityParams& params, const std::vector<Light>& lights,
-                      const Camera& camera, glm::ivec2 size)
+namespace {
+
+// Radiance along a ray that a surface sends out, over mirrors, each of which has light of its own too.
+glm::vec3 radiance_along(const Radiosity& radiosity, const RadiosityParams& params, const std::vector<Light>& lights,
+                         Reflection ray)
+{
+    const Patches& patches = radiosity.patches();
+    const int bounces = params.solver.bounces;
+    glm::vec3 sum(0.0f);
+    // snippet: radiance_along
+    for (int bounce = 1; bounces < 0 || bounce <= bounces; ++bounce) {
+        const auto hit = patches.tracer().intersect({ray.origin, ray.direction});
+        const std::uint32_t patch = hit ? patches.at(*hit) : kNoPatch;
+        if (patch == kNoPatch) break;
+        glm::vec3 rho = hit->brdf.rho;
+        if (!patches.is_mirror(hit->brdf)) rho += mean_reflectance(hit->brdf.f0, hit->brdf.f90);
+        glm::vec3 radiosity_here = directly_lit(patches.tracer(), lights, *hit, rho);
+        if (const CornerValues* const before = radiosity.corners_before(bounce - 1)) {
+            const glm::vec3 w = patches.place(*hit).weights;
+            const auto& h = (*before)[patch];
+            radiosity_here += rho * (w.x * h[0] + w.y * h[1] + w.z * h[2]);
+        }
+        sum += ray.weight * (hit->emission + radiosity_here / kPi);
+        const Reflection next = patches.reflect(*hit, ray.direction);
+        ray = {next.origin, next.direction, ray.weight * next.weight};
+        if (ray.weight == glm::vec3(0.0f) || bounce > params.form_factors.reflections) break;
+    }
+    // end snippet
+    return sum;
+}
+
+}  // namespace
+
+ImageF specular_picture(const Radiosity& radiosity, const RadiosityParams& params, int lobe_rays,
+                        const std::vector<Light>& lights, const Camera& camera, glm::ivec2 size)
 {
     const Patches& patches = radiosity.patches();
     const SceneTracer& tracer = patches.tracer();
     const DepthRange depths = visible_depths(camera, tracer.scene().bounds);
-    const int bounces = params.solver.bounces;
     ImageF picture = black_picture(size);
     for_all(picture.pixels.size(), [&](std::size_t i) {
         const int x = int(i) % size.x, y = int(i) / size.x;
         const Ray ray = camera_ray(camera, depths, float(x) + 0.5f, float(y) + 0.5f, size.x, size.y);
-        auto hit = tracer.intersect_camera(ray);
-        if (!hit || !patches.is_mirror(hit->brdf)) return;
-        glm::vec3 direction = glm::normalize(ray.direction), share(1.0f), sum(0.0f);
-        // snippet: mirror_pixel
-        for (int mirrors = 1; mirrors <= params.form_factors.reflections && (bounces < 0 || mirrors <= bounces);
-             ++mirrors) {
-            const Reflection next = patches.reflect(*hit, direction);
-            share *= next.weight;
-            if (share == glm::vec3(0.0f)) break;
-            hit = tracer.intersect({next.origin, next.direction});
-            direction = next.direction;
-            const std::uint32_t patch = hit ? patches.at(*hit) : kNoPatch;
-            if (patch == kNoPatch) break;
-            glm::vec3 rho = hit->brdf.rho;
-            if (!patches.is_mirror(hit->brdf)) rho += mean_reflectance(hit->brdf.f0, hit->brdf.f90);
-            glm::vec3 radiosity_here = directly_lit(tracer, lights, *hit, rho);
-            if (const CornerValues* const before = radiosity.corners_before(mirrors - 1)) {
-                const glm::vec3 w = patches.place(*hit).weights;
-                const auto& h = (*before)[patch];
-                radiosity_here += rho * (w.x * h[0] + w.y * h[1] + w.z * h[2]);
-            }
-            sum += share * (hit->emission + radiosity_here / kPi);
+        const auto hit = tracer.intersect_camera(ray);
+        if (!hit || !hit->brdf.has_specular()) return;
+        const glm::vec3 direction = glm::normalize(ray.direction);
+        if (patches.is_mirror(hit->brdf)) {
+            const glm::vec3 sum = radiance_along(radiosity, params, lights, patches.reflect(*hit, direction));
+            picture.pixels[i] = glm::vec4(sum, 1.0f);
+            return;
         }
-        // end snippet
+        // The lobe alone, sampled by its visible normals.
+        Brdf lobe = hit->brdf;
+        lobe.rho = glm::vec3(0.0f);
+        const Frame frame(hit->shading_normal);
+        const glm::vec3 wo = clamp_view(frame.to_local(-direction));
+        glm::vec3 sum(0.0f);
+        const std::uint64_t bits = mix_bits(i + 1);
+        for (int r = 0; r < lobe_rays; ++r) {
+            const glm::vec2 u = sequence_02(std::uint32_t(r), std::uint32_t(bits), std::uint32_t(bits >> 32));
+            const glm::vec3 wi = sample_brdf(lobe, wo, u, 0.0f);
+            const float pdf = pdf_brdf(lobe, wo, wi);
+            const glm::vec3 towards = frame.to_scene(wi);
+            if (!(pdf > 0.0f) || wi.z <= 0.0f || glm::dot(towards, hit->geometric_normal) <= 0.0f) continue;
+            const glm::vec3 weight = evaluate_brdf(lobe, wo, wi).specular * (wi.z / pdf / float(lobe_rays));
+            sum += radiance_along(radiosity, params, lights, {tracer.leave(*hit), towards, weight});
+        }
         picture.pixels[i] = glm::vec4(sum, 1.0f);
     });
     return picture;
@@ -156,13 +172,13 @@ const gl::Texture& UploadedPicture::set(const ImageF& picture)
     return texture_;
 }
 
-void add_parameters(ParameterTable& table, PickParams& params)
+void add_parameters(ParameterTable& table, PatchPickParams& params)
 {
     table.add("pick_x", params.pick_x, 0.0, 1.0, "", "whose form factors and hemicube are shown: place from the left");
     table.add("pick_y", params.pick_y, 0.0, 1.0, "", "and from the top");
 }
 
-std::uint32_t picked_patch(const Patches& patches, const PickParams& params, const Camera& camera, glm::ivec2 size)
+std::uint32_t picked_patch(const Patches& patches, const PatchPickParams& params, const Camera& camera, glm::ivec2 size)
 {
     const SceneTracer& tracer = patches.tracer();
     const Ray ray = camera_ray(camera, visible_depths(camera, tracer.scene().bounds), params.pick_x * float(size.x),
@@ -192,7 +208,7 @@ std::optional<CornerValues> patch_view_values(const std::string& view, const Rad
     } else if (view == "form_factors") {
         if (picked != kNoPatch) {
             const FormFactorRow& row = radiosity.form_factors().rows[picked];
-            for (const FormFactor& f : row.direct) values[f.patch] += glm::vec3(f.share);
+            for (const FormFactorEntry& f : row.direct) values[f.patch] += glm::vec3(f.share);
             for (const MirroredFormFactor& f : row.mirrored) values[f.patch] += f.share;
             float most = 0.0f;
             for (std::size_t i = 0; i < patches.size(); ++i) {

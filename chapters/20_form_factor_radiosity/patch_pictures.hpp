@@ -27,30 +27,19 @@ private:
     gl::Framebuffer framebuffer_;
 };
 
-// The specular part of the picture: mirrors as they were traced, rough lobes as if they were diffuse.
-class SpecularPass {
-public:
-    explicit SpecularPass(gl::Shaders& shaders);
-    // RGBA32F, W/(sr m^2). `gathered`: E / pi. `mirrors`: null when there are none.
-    const gl::Texture& run(const GBuffer& g_buffer, const gl::Texture& gathered, const gl::Texture* mirrors);
-
-private:
-    gl::Program program_;
-    gl::VertexArray no_vertices_;
-    gl::Texture black_, color_;
-    gl::Framebuffer framebuffer_;
-};
-
-// What mirrors show at each pixel, a ray through its middle: emission, direct and indirect light of the surface at the end
-// of the path, which has been over one mirror or more. Alpha 1 where the pixel sees a mirror.
-ImageF mirror_picture(const Radiosity& radiosity, const RadiosityParams& params, const std::vector<Light>& lights,
-                      const Camera& camera, glm::ivec2 size);
-
 struct PixelParams {
     // Samples along each side of a pixel of a picture of light, 1 .. 4: what is behind an edge counts with its share.
     int pixel_samples = 2;
+    // Rays of a sample into lobes that are too rough for a mirror, 1 .. 64.
+    int lobe_rays = 4;
 };
 void add_parameters(ParameterTable& table, PixelParams& params);
+
+// Indirect specular light at each pixel, from its middle: one ray from a mirror, some from rougher lobes. They find
+// emission, direct and indirect light of the surface at their end, over further mirrors. Alpha 1 where there is a
+// lobe.
+ImageF specular_picture(const Radiosity& radiosity, const RadiosityParams& params, int lobe_rays,
+                        const std::vector<Light>& lights, const Camera& camera, glm::ivec2 size);
 
 // A picture of `side` by `side` samples a pixel, brought to its pixels.
 class BoxFilterPass {
@@ -75,20 +64,22 @@ private:
 };
 
 // What belongs to one patch, or to the patch at one place of the picture.
-struct PickParams {
+struct PatchPickParams {
     float pick_x = 0.5f, pick_y = 0.5f;  // place in the picture: 0 left, 1 right; 0 top, 1 bottom
 };
-void add_parameters(ParameterTable& table, PickParams& params);
+void add_parameters(ParameterTable& table, PatchPickParams& params);
 // kNoPatch where the picture has no surface.
-std::uint32_t picked_patch(const Patches& patches, const PickParams& params, const Camera& camera, glm::ivec2 size);
+std::uint32_t picked_patch(const Patches& patches, const PatchPickParams& params, const Camera& camera,
+                           glm::ivec2 size);
 
 // patches, radiosity, form_factors, hemicube.
 std::vector<View> patch_views();
-// The first three of them as one value a patch; nothing when the name is none of them. form_factors: F_ij / A_j over the
-// largest of them, the picked patch itself blue.
+// The first three of them as one value a patch; nothing when the name is none of them. form_factors: F_ij / A_j
+// over the largest of them, the picked patch itself blue.
 std::optional<CornerValues> patch_view_values(const std::string& view, const Radiosity& radiosity,
                                               std::uint32_t picked);
-// The item buffer of a patch, each texel in the colour of the patch that it sees; the sides folded down round the top.
+// The item buffer of a patch, each texel in the colour of the patch that it sees; the sides folded down round the
+// top.
 ImageF hemicube_picture(Radiosity& radiosity, const RadiosityParams& params, std::uint32_t patch, glm::ivec2 size);
 
 }  // namespace conebook

@@ -116,7 +116,7 @@ glm::vec3 directly_lit(const SceneTracer& tracer, const std::vector<Light>& ligh
     return rho * irradiance;
 }
 
-Patches::Patches(const SceneTracer& tracer, const PatchParams& params, PatchMesh mesh)
+Patches::Patches(const SceneTracer& tracer, const PatchParams& params, BisectedMesh mesh)
     : tracer_(&tracer), params_(params), mesh_(std::move(mesh))
 {
     const Scene& scene = tracer.scene();
@@ -217,8 +217,8 @@ std::uint32_t Patches::at(const SurfaceHit& hit) const { return hit.dark ? kNoPa
 SurfaceHit Patches::point(const Patch& patch, int k) const
 {
     // Steps of 1 / g and 1 / g^2 with g^3 = g + 1, which no power of 2 repeats (Roberts 2018, "The unreasonable
-    // effectiveness of quasirandom sequences", R2): rays are of a sequence in base 2, and places of the same base would
-    // move in step with their directions.
+    // effectiveness of quasirandom sequences", R2): rays are of a sequence in base 2, and places of the same base
+    // would move in step with their directions.
     constexpr glm::dvec2 kStep(0.7548776662466927, 0.5698402909980532);
     const std::uint64_t bits = mix_bits(2 * std::uint64_t(patch.node) + (patch.back ? 1 : 0) + 1);
     const glm::dvec2 begin(double(bits >> 32) * 0x1p-32, double(bits & 0xffffffffu) * 0x1p-32);

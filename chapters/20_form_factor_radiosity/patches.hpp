@@ -54,12 +54,12 @@ struct Reflection {
 class Patches {
 public:
     // The scene and the tracer must outlive this.
-    Patches(const SceneTracer& tracer, const PatchParams& params, PatchMesh mesh);
+    Patches(const SceneTracer& tracer, const PatchParams& params, BisectedMesh mesh);
 
     // Sets Patch::lit from these lights.
     void light(const std::vector<Light>& lights);
 
-    const PatchMesh& mesh() const { return mesh_; }
+    const BisectedMesh& mesh() const { return mesh_; }
     const SceneTracer& tracer() const { return *tracer_; }
     const std::vector<Patch>& all() const { return patches_; }
     std::size_t size() const { return patches_.size(); }
@@ -96,7 +96,7 @@ private:
     void fill(std::uint32_t index);
     const SceneTracer* tracer_;
     PatchParams params_;
-    PatchMesh mesh_;
+    BisectedMesh mesh_;
     std::vector<std::uint32_t> draw_of_;  // of each triangle
     std::vector<Patch> patches_;
     std::vector<std::uint32_t> front_, back_;
@@ -116,8 +116,8 @@ bool is_buried(const SceneTracer& tracer, const glm::vec3& point, const glm::vec
 // Runs work(i) for i in [0, count) on all cores, each i by one thread.
 void for_all(std::size_t count, const std::function<void(std::size_t)>& work);
 
-// Point i of a (0,2)-sequence, both digits scrambled (Kollig & Keller 2002, "Efficient multidimensional sampling", 3.1):
-// any 2^k in a row have one in each of the 2^k equal boxes of every shape.
+// Point i of a (0,2)-sequence, both digits scrambled (Kollig & Keller 2002, "Efficient multidimensional sampling",
+// 3.1): any 2^k in a row have one in each of the 2^k equal boxes of every shape.
 glm::vec2 sequence_02(std::uint32_t i, std::uint32_t scramble_x, std::uint32_t scramble_y);
 // Weights of the corners of a triangle, uniform over its area for u uniform in [0, 1)^2.
 glm::vec3 triangle_weights(glm::vec2 u);

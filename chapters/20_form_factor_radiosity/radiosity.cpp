@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/needs.hpp"
+
 namespace conebook {
 namespace {
 
@@ -52,7 +54,7 @@ void add_parameters(ParameterTable& table, RadiosityParams& params)
 
 Patches make_patches(const SceneTracer& tracer, const PatchParams& params, const std::vector<Light>& lights)
 {
-    PatchMesh mesh(tracer.scene());
+    BisectedMesh mesh(tracer.scene());
     std::vector<char> shines(mesh.nodes().size(), 0);
     for (const Draw& draw : tracer.scene().draws) {
         const Material& m = tracer.scene().materials[std::size_t(draw.material)];
@@ -68,8 +70,8 @@ Patches make_patches(const SceneTracer& tracer, const PatchParams& params, const
     if (!params.adaptive || mesh.leaf_count() >= budget) return Patches(tracer, params, std::move(mesh));
 
     // snippet: adapt
-    // Twice: a solution, coarse and by few rays, and bisection where light changes. A change over a patch shrinks with its
-    // width, and what it spoils with its area.
+    // Twice: a solution, coarse and by few rays, and bisection where light changes. A change over a patch shrinks
+    // with its width, and what it spoils with its area.
     for (const std::size_t leaves : {(2 * budget + 1) / 3, budget}) {
         Patches coarse(tracer, params, std::move(mesh));
         coarse.light(lights);
@@ -138,7 +140,7 @@ Irradiance Radiosity::light_of(const Lamps& lamps) const
 {
     Irradiance sum(patches_->size(), glm::vec3(0.0f));
     for (std::size_t i = 0; i < sum.size(); ++i)
-        for (const FormFactor& f : form_factors_.rows[i].direct)
+        for (const FormFactorEntry& f : form_factors_.rows[i].direct)
             if (lamps.has(f.patch)) sum[i] += f.share * (*patches_)[f.patch].emitted;
     return sum;
 }
@@ -148,8 +150,8 @@ bool Radiosity::fit_corners(const RadiosityParams& params)
     if (!corners_from_.differs(params.reconstruction, solution_revision_)) return false;
     surfaces_ = std::make_unique<Surfaces>(*patches_, params.reconstruction);
     corners_.clear();
-    // Mirrors show what surfaces had some bounces earlier.
-    const std::size_t first = patches_->has_mirrors() ? 0 : solution_.after.size() - 1;
+    // Specular surfaces show what others had some bounces earlier.
+    const std::size_t first = has_specular_surfaces(*scene_) ? 0 : solution_.after.size() - 1;
     const Lamps lamps(*patches_);
     const Irradiance none(patches_->size(), glm::vec3(0.0f)), from_lamps = light_of(lamps);
     for (std::size_t i = first; i < solution_.after.size(); ++i) {

@@ -18,7 +18,8 @@ struct RadiosityParams {
 };
 void add_parameters(ParameterTable& table, RadiosityParams& params);
 
-// Patches of a scene: bisected evenly, and, if asked, further where a first solution by rays changes from patch to patch.
+// Patches of a scene: bisected evenly, and, if asked, further where a first solution by rays changes from patch to
+// patch.
 Patches make_patches(const SceneTracer& tracer, const PatchParams& params, const std::vector<Light>& lights);
 
 // Each step runs when something that it depends on has changed, and says whether it did. In this order.
@@ -37,7 +38,8 @@ public:
     const FormFactors& form_factors() const { return form_factors_; }
     const Solution& solution() const { return solution_; }
     Hemicubes& hemicubes();
-    // Irradiance at corners after so many bounces less than asked for as Solution::before says; null where none is left.
+    // Irradiance at corners after so many bounces less than asked for as Solution::before says; null where none is
+    // left.
     const CornerValues* corners_before(int mirrors) const;
     const CornerValues& corners() const { return corners_.back(); }
     Revision corners_revision() const { return corners_revision_; }

@@ -21,7 +21,7 @@ template <typename Sent>
 glm::dvec3 gathered(const FormFactorRow& row, Sent sent)
 {
     glm::dvec3 sum(0.0);
-    for (const FormFactor& f : row.direct) sum += double(f.share) * sent(f.patch, 0u);
+    for (const FormFactorEntry& f : row.direct) sum += double(f.share) * sent(f.patch, 0u);
     for (const MirroredFormFactor& f : row.mirrored) sum += glm::dvec3(f.share) * sent(f.patch, f.reflections);
     return sum;
 }

@@ -23,7 +23,8 @@ struct Solution {
     // By bounces: H of 0, 1, .. `bounces` of them. All bounces: one entry.
     std::vector<Irradiance> after;
     const Irradiance& irradiance() const { return after.back(); }
-    // What a path that has been over `mirrors` mirrors finds when it ends: it has so many bounces less. Null: no more light.
+    // What a path that has been over `mirrors` mirrors finds when it ends: it has so many bounces less. Null: no
+    // more light.
     const Irradiance* before(int mirrors) const;
     int sweeps = 0;
     double residual = 0.0;     // largest |F^ (E + R H) - H|, W/m^2
@@ -33,13 +34,13 @@ struct Solution {
     std::vector<double> residuals;  // after each sweep, as a share of the largest irradiance
 };
 
-// rho of patches that reflect all light, or that and more with their mirror, is lowered until kMostReflected is reflected,
-// if all bounces are wanted: they have no other limit. Counted in `dimmed`.
+// rho of patches that reflect all light, or that and more with their mirror, is lowered until kMostReflected is
+// reflected, if all bounces are wanted: they have no other limit. Counted in `dimmed`.
 constexpr float kMostReflected = 0.99f;
 
-// With as unknown the radiosity B, rows of the matrix can add up to more than 1 where there are mirrors; those of F^ R
-// cannot: sum_j F^_ij (1 - rho_s,j) <= 1, so they are at most the largest rho_d / (1 - rho_s). Throws std::runtime_error
-// when all bounces are wanted and q >= 1.
+// With as unknown the radiosity B, rows of the matrix can add up to more than 1 where there are mirrors; those of
+// F^ R cannot: sum_j F^_ij (1 - rho_s,j) <= 1, so they are at most the largest rho_d / (1 - rho_s). Throws
+// std::runtime_error when all bounces are wanted and q >= 1.
 Solution solve_radiosity(const Patches& patches, const FormFactors& factors, const SolverParams& params);
 
 // B = emitted + lit + rho H, W/m^2.

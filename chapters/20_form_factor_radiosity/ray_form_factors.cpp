@@ -44,7 +44,7 @@ FormFactorRow RowBuilder::finish()
 {
     FormFactorRow row;
     std::stable_sort(direct_.begin(), direct_.end(), [](const auto& a, const auto& b) { return a.patch < b.patch; });
-    for (const FormFactor& f : direct_) {
+    for (const FormFactorEntry& f : direct_) {
         if (!row.direct.empty() && row.direct.back().patch == f.patch)
             row.direct.back().share += f.share;
         else
@@ -74,7 +74,7 @@ std::size_t FormFactors::bytes() const
 {
     std::size_t sum = 0;
     for (const FormFactorRow& row : rows)
-        sum += row.direct.size() * sizeof(FormFactor) + row.mirrored.size() * sizeof(MirroredFormFactor);
+        sum += row.direct.size() * sizeof(FormFactorEntry) + row.mirrored.size() * sizeof(MirroredFormFactor);
     return sum;
 }
 

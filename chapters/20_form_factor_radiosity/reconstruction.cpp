@@ -62,7 +62,7 @@ void add_parameters(ParameterTable& table, ReconstructionParams& params)
 Surfaces::Surfaces(const Patches& patches, const ReconstructionParams& params)
     : patches_(&patches), params_(params), neighbours_(patches.size())
 {
-    const PatchMesh& mesh = patches.mesh();
+    const BisectedMesh& mesh = patches.mesh();
     const float least_cosine = std::cos(glm::radians(params.smooth_angle)) - 1e-6f;
     for_all(patches.size(), [&](std::size_t index) {
         const Patch& patch = patches[index];
@@ -98,7 +98,7 @@ Surfaces::Surfaces(const Patches& patches, const ReconstructionParams& params)
 CornerValues Surfaces::corners(const Irradiance& values, const Irradiance& from_lamps, const Lamps& lamps) const
 {
     const Patches& patches = *patches_;
-    const PatchMesh& mesh = patches.mesh();
+    const BisectedMesh& mesh = patches.mesh();
     CornerValues result(patches.size());
     std::vector<std::array<std::uint32_t, 3>> owners(patches.size());  // the patch that finds the value for its ring
     Irradiance rest(values);

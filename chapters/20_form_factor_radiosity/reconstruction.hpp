@@ -23,14 +23,14 @@ class Surfaces {
 public:
     Surfaces(const Patches& patches, const ReconstructionParams& params);
 
-    // Neighbours of a patch over its edges on the same surface: not where the angle is too large, and not where a third
-    // patch rises from the edge on this side (the foot of a wall), for its shadow ends there.
+    // Neighbours of a patch over its edges on the same surface: not where the angle is too large, and not where a
+    // third patch rises from the edge on this side (the foot of a wall), for its shadow ends there.
     const std::vector<std::uint32_t>& neighbours(std::uint32_t patch) const { return neighbours_[patch]; }
 
     // A linear function of the position is fitted (weighted least squares) to the patches round each corner and their
     // neighbours. A linear field is met exactly, at borders too, where a mean would lag by half a patch.
-    // Of `values`, the part `from_lamps` is not fitted but found anew at the corner, where rays ask for the lamps: shadows
-    // keep their edges. Corners inside something solid are fitted.
+    // Of `values`, the part `from_lamps` is not fitted but found anew at the corner, where rays ask for the lamps:
+    // shadows keep their edges. Corners inside something solid are fitted.
     CornerValues corners(const Irradiance& values, const Irradiance& from_lamps, const Lamps& lamps) const;
 
 private:
