@@ -56,9 +56,10 @@ TEST(Culling, NoPointOfABoxThatIsOutsideIsSeen)
 
 TEST(Culling, DrawsTheSameBits)
 {
+    gl::Shaders& shaders = test_gl().shaders;  // the context comes first
     const Scene source = load_scene(asset("colonnade"));
     const GpuScene scene(source);
-    const gl::Program program = test_gl().shaders.load({"03_shadow_map/shadow.vert", "03_shadow_map/shadow.frag"});
+    const gl::Program program = shaders.load({"03_shadow_map/shadow.vert", "03_shadow_map/shadow.frag"});
     const gl::Texture depth = gl::texture_2d("depth", GL_DEPTH_COMPONENT32F, {48, 48});
     const gl::Framebuffer framebuffer("depth", {}, &depth);
     const auto draw = [&](const glm::mat4& clip_from_scene, const glm::mat4* culled_by) {
