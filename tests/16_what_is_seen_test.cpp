@@ -141,13 +141,13 @@ TEST(Ranges, ShadowsBeyondThemAreLeftOut)
     SceneBuilder b;
     const int grey = b.material(lambert(0.5f));
     b.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, grey);
-    b.quad({-0.6f, 0.5f, 0.6f}, {1.2f, 0, 0}, {0, 0, -1.2f}, grey);
+    b.box({-0.6f, 0.5f, -0.6f}, {0.6f, 0.6f, 0.6f}, grey);
     b.directional_light({0, -1, 0}, glm::vec3(1.0f));
     LightPipeline pipeline(b.build(), look_at_orthographic({0, 0.4f, 0}, {0, 0, 0}, 0.2f, 0.2f), {32, 32}, 64);
     SoftShadowParams params;
     params.range_shadow = 0.35f;
     EXPECT_EQ(spread_of(pipeline.visibility(ShadowMethod::cone, params)).low, 1.0);
-    params.range_shadow = 0.65f;
+    params.range_shadow = 0.8f;
     EXPECT_EQ(spread_of(pipeline.visibility(ShadowMethod::cone, params)).high, 0.0);
 }
 
