@@ -22,7 +22,7 @@ void ChosenSettings::measure_machine(const Statistics& statistics)
 }
 
 void ChosenSettings::update(const DemandParams& demand, const FrameSettings& asked, const NeedParams& needs,
-                            glm::ivec2 size, const std::vector<double>& asked_values, const Statistics& statistics)
+                            glm::ivec2 size, const ParameterValues& asked_values, const Statistics& statistics)
 {
     constexpr int kWarm = 2;  // frames
     const bool changed = made_from_.differs(demand, asked_values, size, asked.view);

@@ -18,7 +18,7 @@ public:
     // anew when one of these has changed, and once when two frames have told how fast this machine is (in the first one
     // programs are made). Throws as choose() and read_measured_settings() do.
     void update(const DemandParams& demand, const FrameSettings& asked, const NeedParams& needs, glm::ivec2 size,
-                const std::vector<double>& asked_values, const Statistics& statistics);
+                const ParameterValues& asked_values, const Statistics& statistics);
 
     const SceneLightParams& scene() const { return scene_params_; }
     const CameraLightParams& camera() const { return camera_params_; }
@@ -38,7 +38,7 @@ private:
     SceneLightParams scene_params_;
     CameraLightParams camera_params_;
     std::optional<Expectation> expectation_;
-    MadeFrom<DemandParams, std::vector<double>, glm::ivec2, std::string> made_from_;
+    MadeFrom<DemandParams, ParameterValues, glm::ivec2, std::string> made_from_;
     double machine_ = 1.0;
     int frames_ = 0;  // with what is chosen now
 };
