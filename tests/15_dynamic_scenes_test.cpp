@@ -56,8 +56,8 @@ TEST(DynamicScenes, EachEventRunsWhatDependsOnIt)
     frames.params.camera.composite.bounce_strength = 2.0f;
     expect("a setting of the pixels", {});
     frames.params.dynamic.overlap = Overlap::drop;
-    expect("overlap", once({"take out", "put in", "average moving", "voxel shading", "walk volume", "coverage of voxels",
-                            "links", "further bounces", "light pyramid"}));
+    expect("overlap", once({"take out", "put in", "average moving", "voxel shading", "walk volume",
+                            "coverage of voxels", "links", "further bounces", "light pyramid"}));
     frames.params.scene.voxels.grid.voxels = 28;
     expect("another grid", once({"voxelize still", "average still", "put in", "average moving", "voxel shading",
                                  "walk volume", "coverage of voxels", "links", "further bounces", "light pyramid"}));
@@ -89,8 +89,8 @@ double mean_of(const std::vector<float>& values)
     return sum / double(values.size());
 }
 
-// After other poses the picture is the one that begins with this pose; when the bounces begin with the last light, to within
-// their tolerance.
+// After other poses the picture is the one that begins with this pose; when the bounces begin with the last light,
+// to within their tolerance.
 TEST(DynamicScenes, APictureDoesNotTellWhatWasBefore)
 {
     const auto after = [](const std::vector<float>& times, bool warm) {
@@ -139,8 +139,11 @@ TEST(DynamicScenes, AfterADoorOpens)
     });
     EXPECT_LE(warm, cold);
     EXPECT_LT(lag, 100);
-    std::printf("bounces: %d from direct light, %d from the last light; one a frame: %.3f of the light at first, within 1 %% after %d "
-                "frames\n", cold, warm, before / truth, lag);
+    std::printf(
+        "bounces: %d from direct light, %d from the last light; one a frame: %.3f of the light at first, within 1 %% "
+        "after %d "
+        "frames\n",
+        cold, warm, before / truth, lag);
     RecordProperty("bounces_cold", std::to_string(cold));
     RecordProperty("bounces_warm", std::to_string(warm));
     RecordProperty("frames_to_1_percent", std::to_string(lag));
@@ -216,8 +219,8 @@ TEST_P(AtATime, ThePictureIsThatOfTheScenePosed)
         of_truth += double(truth.pixels[i].x + truth.pixels[i].y + truth.pixels[i].z);
     }
     std::printf("%s: mean radiance over the path tracer's %.4f\n", name, sum / of_truth);
-    // What voxels of 1/64 of the scene are off by, in scenes that stand still too: door 1.01, figure 1.10 (its limbs are a
-    // voxel or two thick), walking_lamp 0.92.
+    // What voxels of 1/64 of the scene are off by, in scenes that stand still too: door 1.01, figure 1.10 (its limbs
+    // are a voxel or two thick), walking_lamp 0.92.
     EXPECT_NEAR(sum / of_truth, 1.0, 0.15);
 
     for (Node& node : still.nodes) node.dynamic = false;
@@ -230,7 +233,8 @@ TEST_P(AtATime, ThePictureIsThatOfTheScenePosed)
     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
         difference += double(glm::length(glm::vec3(picture.pixels[i] - expected.pixels[i])));
     std::printf("%s: mean difference from the posed file over the mean %.6f\n", name, difference / of_truth);
-    // What moves is posed in single precision, and maps are fitted where nothing moves: 0.009 under the lamp's spot light.
+    // What moves is posed in single precision, and maps are fitted where nothing moves: 0.009 under the lamp's spot
+    // light.
     EXPECT_LT(difference / of_truth, 0.02);
 }
 

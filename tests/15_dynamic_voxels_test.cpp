@@ -15,14 +15,16 @@ namespace {
 struct Voxels {
     std::vector<std::vector<GLuint>> occupancy;  // of all levels
     std::vector<GLuint> listed;                  // pack_voxel(), sorted
-    std::map<GLuint, std::vector<GLuint>> faces;  // by pack_voxel() | face << 27: the bits of shared::VoxelFace and the sums
+    std::map<GLuint, std::vector<GLuint>>
+        faces;  // by pack_voxel() | face << 27: the bits of shared::VoxelFace and the sums
     std::vector<GLuint> walk;
     bool operator==(const Voxels&) const = default;
 };
 
 std::vector<GLuint> words_of(const gl::Buffer& buffer) { return buffer.read<GLuint>(); }
 
-Voxels read_voxels(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer, VoxelFaces& faces)
+Voxels read_voxels(gl::Shaders& shaders, const VoxelGrid& grid, const ConservativeVoxelizer& voxelizer,
+                   VoxelFaces& faces)
 {
     Voxels v;
     for (int level = 0; level < grid.levels(); ++level)
@@ -89,7 +91,7 @@ TEST_P(OfScene, RandomPosesAreThoseFromNothing)
     const Voxels first = moved(frames);
     for (int i = 0; i < 20; ++i) {
         frames.params.time = times(random);
-        frames.params.scene.voxels.voxelizer.voxelizer = i % 7 == 6 ? 0 : 1;  // another one: all of it again
+        frames.params.scene.voxels.voxelizer.voxelizer = i % 7 == 6 ? Voxelizer::raster : Voxelizer::compute;  // another one: all of it again
         frames.light_frame();
         ASSERT_EQ(moved(frames), from_nothing(frames)) << frames.params.time << " s";
     }
@@ -99,7 +101,8 @@ TEST_P(OfScene, RandomPosesAreThoseFromNothing)
     EXPECT_EQ(moved(frames), first);
 }
 
-// A ball that moves through a wall, and out of the grid: 0 s inside, 1 s half in the wall and half outside, 2 s outside.
+// A ball that moves through a wall, and out of the grid: 0 s inside, 1 s half in the wall and half outside, 2 s
+// outside.
 Scene ball_through_wall()
 {
     SceneBuilder b;
@@ -186,8 +189,8 @@ std::map<GLuint, std::vector<GLuint>> links_of(MovingFrames& frames)
     return found;
 }
 
-// Only faces whose rays come by what has moved find their links again; a few others differ, where a rounding decides between
-// two voxels.
+// Only faces whose rays come by what has moved find their links again; a few others differ, where a rounding decides
+// between two voxels.
 TEST_P(OfScene, LinksAreThoseFromNothing)
 {
     MovingParams params = MovingFrames::small(32);

@@ -1,7 +1,5 @@
-// Any way to a scene ends in its picture: objects that came, went, moved, changed material and were switched between dynamic
-// and static, frame by frame, against a program that begins with them.
-#include <cmath>
-
+// Any way to a scene ends in its picture, bit for bit: objects that came, went, moved, changed material and were switched
+// between dynamic and static, frame by frame, against a program that begins with them.
 #include "15_dynamic_scenes/scene_objects.hpp"
 #include "chapter_15_frames.hpp"
 #include "random_objects.hpp"
@@ -12,7 +10,7 @@ namespace {
 MovingParams params_of_test()
 {
     MovingParams params = MovingFrames::small();
-    params.scene.bounces.warm_start = true;
+    params.scene.bounces.warm_start = false;  // which keeps what is within the solver's tolerance of the last light
     return params;
 }
 
@@ -38,24 +36,12 @@ public:
         frames_.draw();
         return frames_.pixels();
     }
-    std::map<std::string, int> draw() { return frames_.draw(); }
 
 private:
     ObjectParams params_;
     SceneObjects objects_;
     MovingFrames frames_;
 };
-
-// Largest difference of a value, over the mean of all.
-double difference(const std::vector<float>& a, const std::vector<float>& b)
-{
-    double sum = 0.0, largest = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        sum += double(b[i]);
-        largest = std::max(largest, std::abs(double(a[i]) - double(b[i])));
-    }
-    return largest / (sum / double(a.size()));
-}
 
 TEST(Edits, AnyWayToASceneEndsInItsPicture)
 {
@@ -64,7 +50,7 @@ TEST(Edits, AnyWayToASceneEndsInItsPicture)
         EditedFrames edited("");
         RandomEdits random(15);
         std::vector<Object> objects;
-        for (int i = 1; i <= 200; ++i) {
+        for (int i = 1; i <= 60; ++i) {
             random.edit(objects, {});
             for (Object& object : objects) {
                 object.at += glm::dvec3(0.0, object.at.y < 0.0 ? 1.0 : 0.0, 0.0);
@@ -74,15 +60,13 @@ TEST(Edits, AnyWayToASceneEndsInItsPicture)
             const std::string text = text_of(objects);
             edited.edit(text);
             const std::vector<float> picture = edited.picture();
-            if (i % 50 == 0) pictures[text] = picture;
+            if (i % 20 == 0) pictures[text] = picture;
         }
     }
-    ASSERT_EQ(pictures.size(), 4u);
+    ASSERT_EQ(pictures.size(), 3u);
     for (const auto& [text, picture] : pictures) {
         EditedFrames fresh(text);
-        const double apart = difference(picture, fresh.picture());
-        RecordProperty("difference", std::to_string(apart));
-        EXPECT_LT(apart, 0.01) << text;
+        EXPECT_EQ(picture, fresh.picture()) << text;
     }
 }
 

@@ -139,7 +139,7 @@ TEST(OnlyWhatIsNeeded, GivesTheBitsOfEverything)
         SCOPED_TRACE(c.file.stem().string() + " bounces=" + std::to_string(c.bounces));
         FrameParams start = Frames::small();
         start.scene.bounces.bounces = c.bounces;
-        start.camera.shadows.shadows = int(c.shadows);
+        start.camera.shadows.shadows = c.shadows;
         start.camera.accumulation.accumulate = false;
         Frames frames(c.file, start);
         frames.draw();

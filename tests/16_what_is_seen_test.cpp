@@ -56,9 +56,10 @@ TEST(Culling, NoPointOfABoxThatIsOutsideIsSeen)
 
 TEST(Culling, DrawsTheSameBits)
 {
+    gl::Shaders& shaders = test_gl().shaders;  // the context comes first
     const Scene source = load_scene(asset("colonnade"));
     const GpuScene scene(source);
-    const gl::Program program = test_gl().shaders.load({"03_shadow_map/shadow.vert", "03_shadow_map/shadow.frag"});
+    const gl::Program program = shaders.load({"03_shadow_map/shadow.vert", "03_shadow_map/shadow.frag"});
     const gl::Texture depth = gl::texture_2d("depth", GL_DEPTH_COMPONENT32F, {48, 48});
     const gl::Framebuffer framebuffer("depth", {}, &depth);
     const auto draw = [&](const glm::mat4& clip_from_scene, const glm::mat4* culled_by) {
@@ -140,13 +141,13 @@ TEST(Ranges, ShadowsBeyondThemAreLeftOut)
     SceneBuilder b;
     const int grey = b.material(lambert(0.5f));
     b.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, grey);
-    b.quad({-0.6f, 0.5f, 0.6f}, {1.2f, 0, 0}, {0, 0, -1.2f}, grey);
+    b.box({-0.6f, 0.5f, -0.6f}, {0.6f, 0.6f, 0.6f}, grey);
     b.directional_light({0, -1, 0}, glm::vec3(1.0f));
     LightPipeline pipeline(b.build(), look_at_orthographic({0, 0.4f, 0}, {0, 0, 0}, 0.2f, 0.2f), {32, 32}, 64);
     SoftShadowParams params;
     params.range_shadow = 0.35f;
     EXPECT_EQ(spread_of(pipeline.visibility(ShadowMethod::cone, params)).low, 1.0);
-    params.range_shadow = 0.65f;
+    params.range_shadow = 0.8f;
     EXPECT_EQ(spread_of(pipeline.visibility(ShadowMethod::cone, params)).high, 0.0);
 }
 

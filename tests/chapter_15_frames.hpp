@@ -25,7 +25,8 @@ struct MovingParams {
     float time = 0.0f;
 };
 
-// Chapter 15's main(), with a hand on everything that can change between two frames. One at a time: its context is current.
+// Chapter 15's main(), with a hand on everything that can change between two frames. One at a time: its context is
+// current.
 class MovingFrames {
 public:
     using Prepare = std::function<void(Scene&)>;
@@ -90,8 +91,8 @@ public:
     std::size_t bytes() const
     {
         std::size_t sum = 0;
-        for (const auto& part : {scene.resources(), moving.resources(), light.resources(), dynamic.resources(),
-                                 camera_light.resources()})
+        for (const auto& part :
+             {scene.resources(), moving.resources(), light.resources(), dynamic.resources(), camera_light.resources()})
             for (const gl::Resource& resource : part) sum += resource.bytes;
         return sum;
     }
@@ -111,9 +112,9 @@ private:
                                           "--frames", "1000",       "--scene", scene_file.string()};
         std::vector<char*> argv;
         for (std::string& word : words) argv.push_back(word.data());
-        return std::make_unique<App>(int(argv.size()), argv.data(),
-                                     ProgramInfo{"test", light_views(),
-                                                 parameters_of(params.scene, params.camera, params.dynamic), prepare});
+        return std::make_unique<App>(
+            int(argv.size()), argv.data(),
+            ProgramInfo{"test", light_views(), parameters_of(params.scene, params.camera, params.dynamic), prepare});
     }
     TemporaryFolder folder_;
     std::map<std::string, int> before_;

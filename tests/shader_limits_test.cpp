@@ -3,6 +3,7 @@
 // the limits of the driver at hand, nor on which variants are compiled.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -59,7 +60,8 @@ TEST(ShaderLimits, StorageBuffersAreWithinWhatOpenGlPromises)
     int shaders = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(shader_root())) {
         const std::string extension = entry.path().extension().string();
-        if (extension != ".vert" && extension != ".geom" && extension != ".frag" && extension != ".comp") continue;
+        constexpr const char* kStages[] = {".vert", ".tesc", ".tese", ".geom", ".frag", ".comp"};
+        if (std::find(std::begin(kStages), std::end(kStages), extension) == std::end(kStages)) continue;
         const std::string file = std::filesystem::relative(entry.path(), shader_root()).string();
         std::set<std::string> seen;
         std::string text;

@@ -72,4 +72,15 @@ void VoxelGrid::fit(const Bounds& bounds, const VoxelGridParams& params)
     buffer_ = gl::Buffer("voxel grid", sizeof data_, &data_);
 }
 
+void VoxelGrid::fit(const shared::GridData& data)
+{
+    if (buffer_ && data.origin == data_.origin && data.size == data_.size && data.content_min == data_.content_min &&
+        data.content_max == data_.content_max)
+        return;
+    made_from_.forget();
+    ++revision_;
+    data_ = data;
+    buffer_ = gl::Buffer("voxel grid", sizeof data_, &data_);
+}
+
 }  // namespace conebook

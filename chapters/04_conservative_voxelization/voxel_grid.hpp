@@ -28,6 +28,8 @@ public:
     VoxelGrid(const Bounds& bounds, const VoxelGridParams& params, int volumes_along_x = 1);
     // Another grid, if bounds or parameters are others than before.
     void fit(const Bounds& bounds, const VoxelGridParams& params);
+    // This one, wherever the scene is.
+    void fit(const shared::GridData& data);
     Revision revision() const { return revision_; }
     const shared::GridData& data() const { return data_; }
     glm::ivec3 size() const { return glm::ivec3(data_.size); }

@@ -186,7 +186,7 @@ bool LightPyramid::run(const VoxelGrid& grid, const VoxelFaces& faces, const gl:
 gl::Defines LightPyramid::defines() const
 {
     gl::Defines all = texels_.defines;
-    if (format_ == LightFormat::r11g11b10f) all["SPLIT_COVERAGE"] = "1";
+    if (format_ == LightFormat::r11g11b10f) all.emplace("SPLIT_COVERAGE", "1");
     return all;
 }
 

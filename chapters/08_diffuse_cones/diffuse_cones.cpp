@@ -35,7 +35,7 @@ void add_parameters(ParameterTable& table, DiffuseConeParams& params)
 gl::Defines cone_defines(const ConeParams& params, const ConeVolumes& volumes)
 {
     gl::Defines defines = volumes.defines();
-    defines["MARCH"] = params.walk == ConeWalk::march ? "1" : "0";
+    defines["MARCH"] = std::to_string(int(params.walk == ConeWalk::march));
     return defines;
 }
 

@@ -30,8 +30,7 @@ Bounces::Bounces(gl::Shaders& shaders)
 bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitters& emitters, const ConeParams& cones,
                    const BounceParams& params, const FaceChange& change)
 {
-    const bool other_rays =
-        linked_with_.differs(cones.start_offset, cones.cone_table, cones.aperture, params.links);
+    const bool other_rays = linked_with_.differs(cones.start_offset, cones.cone_table, cones.aperture, params.links);
     if (!linked_from_.differs(walk.revision(), voxels.coverage_revision(), emitters.revision()) && !other_rays)
         return false;
     ++links_revision_;
@@ -60,7 +59,9 @@ bool Bounces::link(const LitVoxels& voxels, const WalkVolume& walk, const Emitte
     voxels.pyramid().bind();
     walk.bind();
     gl::Defines defines = {{"MARCH", "0"},
-                           {"EMITTERS", emitters.are_apart() ? "1" : emitters.shine() ? "2" : "0"},
+                           {"EMITTERS", emitters.are_apart() ? "1"
+                                        : emitters.shine()   ? "2"
+                                                             : "0"},
                            {"SOME", some ? "1" : "0"}};
     defines.merge(ConeVolumes{voxels.grid(), voxels.pyramid(), walk}.defines());
     defines.merge(emitters.defines());
@@ -116,7 +117,8 @@ bool Bounces::run(const LitVoxels& voxels, const ConeParams& cones, const Bounce
     bool settled = false;
     for (count_ = 0; count_ < wanted; ++count_) {
         const bool is_last = settled || count_ + 1 == wanted;
-        const bool measure = limited ? is_last : to_convergence && !is_last && count_ % measure_every == measure_every - 1;
+        const bool measure =
+            limited ? is_last : to_convergence && !is_last && count_ % measure_every == measure_every - 1;
         const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
         const gl::Program& bounce = bounce_.with({{"EMITTERS", flag(has_emitters_)},
                                                   {"FIRST", flag(count_ == 0)},
@@ -145,9 +147,8 @@ bool Bounces::run(const LitVoxels& voxels, const ConeParams& cones, const Bounce
 
 std::vector<gl::Resource> Bounces::resources() const
 {
-    return {links_.resource(),     from_emitters_.resource(), albedo_.resource(),
-            packed_[0].resource(), packed_[1].resource(),     reflected_.resource(),
-            last_reflected_.resource()};
+    return {links_.resource(),     from_emitters_.resource(), albedo_.resource(),        packed_[0].resource(),
+            packed_[1].resource(), reflected_.resource(),     last_reflected_.resource()};
 }
 
 }  // namespace conebook

@@ -13,8 +13,9 @@ struct ChangeParams {
 };
 void add_parameters(ParameterTable& table, ChangeParams& params);
 
-// From the second frame on: time goes on by 1/30 s; the first light moves by a thousandth of the scene, or the camera does, to
-// and fro; or a setting that only pixels look at changes.
-void make_change(const ChangeParams& params, App& app, GpuScene& scene, MotionParams& motion, CameraLightParams& camera);
+// From the second frame on: time goes on by 1/30 s; the first light moves by a thousandth of the scene, or the
+// camera does, to and fro; or a setting that only pixels look at changes.
+void make_change(const ChangeParams& params, App& app, GpuScene& scene, MotionParams& motion,
+                 CameraLightParams& camera);
 
 }  // namespace conebook

@@ -76,7 +76,8 @@ FaceChange DynamicVoxels::run(App& app, const Scene& source, const GpuScene& sce
     });
 
     // What moves: out of the last voxels, into the new ones.
-    if (triangles_.moving.empty() || !moving_from_.differs(still_revision_, scene.geometry_revision(), params)) return {};
+    if (triangles_.moving.empty() || !moving_from_.differs(still_revision_, scene.geometry_revision(), params))
+        return {};
     const Revision from = parts.faces.revision();
     FaceLists& lists = parts.faces.edit();
     app.pass("take out", Scope::scene, [&] {

@@ -27,10 +27,10 @@ class DynamicVoxels {
 public:
     explicit DynamicVoxels(gl::Shaders& shaders);
 
-    // The voxels and faces of `voxels` as LitVoxels::voxelize() makes them, but for the order of the lists; each of the steps
-    // if something that it depends on has changed. Reads counters back to the CPU. Throws as ConservativeVoxelizer and
-    // VoxelFaces do. `source` is the scene that `scene` was made from.
-    // Gives what of the faces has changed, when it was what moves alone.
+    // The voxels and faces of `voxels` as LitVoxels::voxelize() makes them, but for the order of the lists; each of
+    // the steps if something that it depends on has changed. Reads counters back to the CPU. Throws as
+    // ConservativeVoxelizer and VoxelFaces do. `source` is the scene that `scene` was made from. Gives what of the
+    // faces has changed, when it was what moves alone.
     FaceChange run(App& app, const Scene& source, const GpuScene& scene, LitVoxels& voxels,
                    const DynamicVoxelParams& params);
 
@@ -47,14 +47,14 @@ private:
 
     gl::Program take_out_, put_in_, above_;
     gl::ProgramVariants collect_;
-    DynamicVoxelParams params_;                 // of the last run
+    DynamicVoxelParams params_;  // of the last run
     TriangleSets triangles_;
-    FragmentList fragments_;                    // of what moves
-    gl::Buffer counters_, counts_;              // of its voxelization; of its list of voxels
-    gl::Buffer list_, last_list_;               // shared::DynamicVoxel
+    FragmentList fragments_;        // of what moves
+    gl::Buffer counters_, counts_;  // of its voxelization; of its list of voxels
+    gl::Buffer list_, last_list_;   // shared::DynamicVoxel
     shared::DynamicCounts counted_{}, last_counted_{};
-    shared::VoxelStatistics still_{};           // of what stands still
-    MadeFrom<Revision, Revision, VoxelizerParams> still_from_;            // what stands still, grid
+    shared::VoxelStatistics still_{};                               // of what stands still
+    MadeFrom<Revision, Revision, VoxelizerParams> still_from_;      // what stands still, grid
     MadeFrom<Revision, Revision, DynamicVoxelParams> moving_from_;  // voxels of what stands still, geometry
     Revision still_revision_ = 0;
 };

@@ -94,7 +94,8 @@ try {
         // Which passes this takes.
         const LightPlan plan = make_plan();
 
-        // What has changed of: shadow maps -> voxels, of what moves alone -> their direct light -> all bounces -> pyramids.
+        // What has changed of: shadow maps -> voxels, of what moves alone -> their direct light -> all bounces ->
+        // pyramids.
         scene_light.run(app, scene, camera_params.cones, plan, [&] {
             return dynamic_voxels.run(app, app.scene(), scene, scene_light.voxels(), dynamic_params);
         });
@@ -105,8 +106,8 @@ try {
         camera_light.see(app, scene);
         camera_light.gather(app, plan);
         const gl::Texture& linear = camera_light.sum(app);
-        app.show(linear, tone_map.run(linear, app.view().encoding, display_params,
-                                      data_scale(app.view(), scene.bounds())));
+        app.show(linear,
+                 tone_map.run(linear, app.view().encoding, display_params, data_scale(app.view(), scene.bounds())));
     });
 
     std::vector<Count> counts = scene_light.counts();

@@ -12,16 +12,18 @@ struct MotionParams {
 };
 void add_parameters(ParameterTable& table, MotionParams& params);
 
-// For ProgramInfo::prepare: the scene's bounds hold all poses, so that the grid and the depths of cameras and lights stay.
+// For ProgramInfo::prepare: the scene's bounds hold all poses, so that the grid and the depths of cameras and lights
+// stay.
 void hold_all_poses(Scene& scene);
 
 class MovingScene {
 public:
-    // `scene` must outlive this; what shines is found on the CPU (chapter 11), so where anything does, its vertices follow.
+    // `scene` must outlive this; what shines is found on the CPU (chapter 11), so where anything does, its vertices
+    // follow.
     MovingScene(gl::Shaders& shaders, Scene& scene);
 
-    // Puts all that moves where it is at that time, if it is not there; says whether anything had to move. `gpu_scene` was
-    // made from the same scene.
+    // Puts all that moves where it is at that time, if it is not there; says whether anything had to move.
+    // `gpu_scene` was made from the same scene.
     bool run(GpuScene& gpu_scene, double time_s);
 
     // The scene's cameras where their nodes are at the time of the last run().

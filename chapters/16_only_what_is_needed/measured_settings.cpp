@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -88,13 +89,15 @@ void apply(const Choice& choice, SceneLightParams& scene, CameraLightParams& cam
 
 std::string text_of(const Choice& choice)
 {
-    std::string out;
+    std::ostringstream out;
     for (const ChoiceField& field : choice_fields()) {
-        const bool format = field.value == &Choice::format;
-        out += (out.empty() ? "" : " ") + std::string(field.name) + "=" +
-               (format ? kFormatNames[choice.format] : std::to_string(choice.*field.value));
+        out << (out.tellp() > 0 ? " " : "") << field.name << "=";
+        if (field.value == &Choice::format)
+            out << kFormatNames[choice.format];
+        else
+            out << choice.*field.value;
     }
-    return out;
+    return out.str();
 }
 
 MeasuredSettings read_measured_settings(const std::filesystem::path& file)

@@ -59,11 +59,15 @@ glm::vec4 box_of(const Octree& tree, GLuint node, GLuint place)
 
 std::string description(const std::vector<GLuint>& sampled, const Octree& tree)
 {
-    std::string text = "test cone samples " + std::to_string(sampled.size()) + " nodes:";
+    std::string text = "test cone samples ";
+    text += std::to_string(sampled.size());
+    text += " nodes:";
     for (const GLuint node : sampled) {
         int level = 0;
         while (level + 1 < tree.depth() && tree.level(level).end <= node) ++level;
-        text += " " + std::to_string(node) + " (level " + std::to_string(level) + ")";
+        for (const std::string& part :
+             {std::string(" "), std::to_string(node), std::string(" (level "), std::to_string(level), std::string(")")})
+            text += part;
     }
     return text;
 }

@@ -110,18 +110,29 @@ NodeReport find_node(const Octree& tree, const TreeViewParams& params)
 std::string description(const NodeReport& node)
 {
     if (node.node < 0) return "no such node";
-    const auto number = [](auto value) { return std::to_string(value); };
-    std::string text = "node " + number(node.node) + " of level " + number(node.level) + " at " + number(node.place.x) +
-                       " " + number(node.place.y) + " " + number(node.place.z) + (node.has_geometry ? "" : ", border") +
-                       ", children";
-    for (const GLuint child : node.children) text += " " + number(child);
+    std::string text = "node";
+    const auto add_number = [&](auto value) {
+        text += ' ';
+        text += std::to_string(value);
+    };
+    add_number(node.node);
+    text += " of level";
+    add_number(node.level);
+    text += " at";
+    for (int axis = 0; axis < 3; ++axis) add_number(node.place[axis]);
+    if (!node.has_geometry) text += ", border";
+    text += ", children";
+    for (const GLuint child : node.children) add_number(child);
     text += ", bricks";
     GLuint brick = node.first_brick;
-    constexpr const char* kNames[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
-    for (int d = 0; d < 6; ++d)
-        if ((node.directions >> d & 1u) != 0) text += std::string(" ") + kNames[d] + " " + number(brick++);
+    constexpr const char* kNames[] = {" -x", " +x", " -y", " +y", " -z", " +z"};
+    for (int d = 0; d < 6; ++d) {
+        if ((node.directions >> d & 1u) == 0) continue;
+        text += kNames[d];
+        add_number(brick++);
+    }
     text += ", neighbours";
-    for (const int other : node.neighbours) text += " " + number(other);
+    for (const int other : node.neighbours) add_number(other);
     return text;
 }
 

@@ -83,9 +83,8 @@ private:
         return glm::dot(d, d);
     }
 
+    // Adds what becomes of a triangle; says whether it was cut. The first corner is turned so that there are three cases.
     // snippet: split
-    // Adds what becomes of a triangle; says whether it was cut. The first corner is turned so that there are three
-    // cases.
     bool split(const Corners& t, std::vector<Corners>& out)
     {
         bool cut[3];
@@ -165,7 +164,7 @@ void measure(const Scene& scene, PatchMesh& mesh)
     std::vector<glm::vec3> moments(count, glm::vec3(0.0f));  // area times the middle, about the vertex, m^3
     for (const Draw& draw : mesh.draws) {
         const Material& material = scene.materials[std::size_t(draw.material)];
-        const bool emits = material.unlit || material.emission != glm::vec3(0.0f);
+        const bool emits = material.shines();
         for (std::size_t i = draw.first_index; i < draw.first_index + draw.index_count; i += 3) {
             const float third = glm::length(cross_of(mesh, i)) / 6.0f;
             const glm::vec3 flux =

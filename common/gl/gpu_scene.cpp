@@ -370,7 +370,8 @@ void unbind_samplers()
 }
 }  // namespace
 
-std::size_t GpuScene::draw(const gl::Program& program, Culling culling, const glm::mat4* clip_from_scene) const
+std::size_t GpuScene::for_each_draw(const gl::Program& program, Culling culling, const glm::mat4* clip_from_scene,
+                                    const std::function<void(const Draw&)>& run) const
 {
     std::size_t drawn = 0;
     program.use();
@@ -389,12 +390,32 @@ std::size_t GpuScene::draw(const gl::Program& program, Culling culling, const gl
                 culling == Culling::back_of_single_sided && !materials_[std::size_t(draw.material)].double_sided;
             (cull ? glEnable : glDisable)(GL_CULL_FACE);
         }
-        glDrawElements(GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT,
-                       reinterpret_cast<const void*>(std::size_t(draw.first_index) * sizeof(GLuint)));
+        run(draw);
     }
     glDisable(GL_CULL_FACE);
     unbind_samplers();
     return drawn;
+}
+
+namespace {
+const void* index_offset(std::size_t index) { return reinterpret_cast<const void*>(index * sizeof(GLuint)); }
+}  // namespace
+
+std::size_t GpuScene::draw(const gl::Program& program, Culling culling, const glm::mat4* clip_from_scene) const
+{
+    return for_each_draw(program, culling, clip_from_scene, [](const Draw& draw) {
+        glDrawElements(GL_TRIANGLES, GLsizei(draw.index_count), GL_UNSIGNED_INT, index_offset(draw.first_index));
+    });
+}
+
+void GpuScene::draw_patches(const gl::Program& program, int instances, std::uint32_t most_patches) const
+{
+    glPatchParameteri(GL_PATCH_VERTICES, 3);
+    for_each_draw(program, Culling::none, nullptr, [&](const Draw& draw) {
+        for (std::uint32_t done = 0; done < draw.index_count; done += 3 * most_patches)
+            glDrawElementsInstanced(GL_PATCHES, GLsizei(std::min(3 * most_patches, draw.index_count - done)),
+                                    GL_UNSIGNED_INT, index_offset(draw.first_index + done), instances);
+    });
 }
 
 void GpuScene::draw_geometry(const gl::Program& program, Range triangles) const
@@ -403,7 +424,7 @@ void GpuScene::draw_geometry(const gl::Program& program, Range triangles) const
     program.use();
     glBindVertexArray(vertex_array_.id());
     glDrawElements(GL_TRIANGLES, GLsizei(3 * triangles.count), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(3 * std::size_t(triangles.first) * sizeof(GLuint)));
+                   index_offset(3 * std::size_t(triangles.first)));
 }
 
 void GpuScene::bind_triangles() const

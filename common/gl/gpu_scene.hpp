@@ -44,6 +44,10 @@ public:
     std::size_t draw(const gl::Program& program, Culling culling, const glm::mat4* clip_from_scene = nullptr) const;
     std::size_t draw_count() const { return draws_.size(); }
 
+    // The same for programs with a tessellator: each triangle is a patch of three corners, `instances` times, and a call
+    // of OpenGL's draws at most `most_patches`.
+    void draw_patches(const gl::Program& program, int instances, std::uint32_t most_patches) const;
+
     // Draw these triangles at once, without materials: uniform uint first_triangle + gl_PrimitiveID is a triangle's number.
     void draw_geometry(const gl::Program& program, Range triangles) const;
 
@@ -98,6 +102,8 @@ public:
 
 private:
     void bind_material(std::size_t material) const;
+    std::size_t for_each_draw(const gl::Program& program, Culling culling, const glm::mat4* clip_from_scene,
+                              const std::function<void(const Draw&)>& run) const;
     void bind_textures(const Scene& scene, std::size_t same_images);
     std::size_t triangle_count_ = 0;
     Revision geometry_revision_ = 1, still_revision_ = 1, lights_revision_ = 1;

@@ -30,10 +30,12 @@ GLenum stage_of(const std::string& file)
 {
     const std::string extension = std::filesystem::path(file).extension().string();
     if (extension == ".vert") return GL_VERTEX_SHADER;
+    if (extension == ".tesc") return GL_TESS_CONTROL_SHADER;
+    if (extension == ".tese") return GL_TESS_EVALUATION_SHADER;
     if (extension == ".geom") return GL_GEOMETRY_SHADER;
     if (extension == ".frag") return GL_FRAGMENT_SHADER;
     if (extension == ".comp") return GL_COMPUTE_SHADER;
-    throw std::runtime_error(file + ": unknown shader stage (.vert .geom .frag .comp)");
+    throw std::runtime_error(file + ": unknown shader stage (.vert .tesc .tese .geom .frag .comp)");
 }
 
 // What the compiler or linker says of an object.
@@ -134,7 +136,15 @@ GLuint link(const std::filesystem::path& root, const std::vector<std::string>& f
 }  // namespace
 
 GLuint Program::id() const { return state_ ? state_->id : 0; }
-void Program::use() const { glUseProgram(id()); }
+
+void Program::use() const
+{
+    // Not even the same program may be used again while transform feedback runs (OpenGL 4.5, 7.3).
+    GLint now = 0;
+    glGetIntegerv(GL_CURRENT_PROGRAM, &now);
+    if (GLuint(now) != id()) glUseProgram(id());
+}
+
 const std::function<void()>& Program::between_slices() const { return *state_->between_slices; }
 
 namespace {

@@ -45,7 +45,7 @@ private:
 class Shaders {
 public:
     explicit Shaders(std::filesystem::path shader_root);
-    // Compile and link; the stage follows from the extension (.vert .geom .frag .comp). Paths are relative to the
+    // Compile and link; the stage follows from the extension (.vert .tesc .tese .geom .frag .comp). Paths are relative to the
     // shader root (expand_shader). Throws std::runtime_error with FILE:LINE of the fault. A warning of the compiler is
     // printed, or thrown when gl::strict(). $CONEBOOK_DUMP_SHADERS: a folder that gets the text of every shader.
     Program load(const std::vector<std::string>& files, const Defines& defines = {});

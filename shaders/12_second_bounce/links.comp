@@ -62,8 +62,8 @@ uint face_met(vec3 position, vec3 direction, float u)
 uniform uint kept_faces;                    // the places of the faces before it are what they were
 uniform vec3 changed_low, changed_high;  // grid space: outside nothing has changed
 
-// What rays see of a voxel is half a voxel around it in the walk volume and another one in what its cells are means of; where
-// they end they look at the eight voxels around, and one more for rounding.
+// What rays see of a voxel is half a voxel around it in the walk volume and another one in what its cells are means
+// of; where they end they look at the eight voxels around, and one more for rounding.
 const float kReach = 3.0;
 
 // Whether the way from `origin` to distance `length` comes by what has changed.
@@ -119,7 +119,8 @@ void main()
         vec3 direction = frame * cones[ray].xyz;
         WalkEnd end = walk(start, direction, threshold_of(ray));
         uint link = kSkyLink;
-        if (end.stopped) link = face_met(start.position + direction * end.t, direction, hashed(face_list[place] * uint(cone_count) + uint(i)));
+        float random = hashed(face_list[place] * uint(cone_count) + uint(i));
+        if (end.stopped) link = face_met(start.position + direction * end.t, direction, random);
         links[place * uint(cone_count) + uint(i)] = link;
 #if EMITTERS == 2
         if (link < kSkyLink) emitted += cones[ray].w * faces[link].emission.rgb;

@@ -1,6 +1,6 @@
 #version 450 core
-// The list of the voxels that what moves overlaps now, each once. One thread a fragment; what stands still has its words in
-// the face index. DROP 1: where something stands still, nothing else comes in.
+// The list of the voxels that what moves overlaps now, each once. One thread a fragment; what stands still has its
+// words in the face index. DROP 1: where something stands still, nothing else comes in.
 #include "common/voxel_grid.glsl"
 #include "common/item_index.glsl"
 #include "05_atomic_averaging/face_index.glsl"

@@ -1,6 +1,6 @@
 #version 450 core
-// The occupancy of the next level again, above the voxels of the list. One thread a voxel of the list; several may have the
-// same parent and write the same.
+// The occupancy of the next level again, above the voxels of the list. One thread a voxel of the list; several may
+// have the same parent and write the same.
 #include "common/voxel_grid.glsl"
 #include "common/item_index.glsl"
 #include "15_dynamic_scenes/dynamic_structs.glsl"

@@ -1,6 +1,7 @@
 #version 450 core
-// A place in the lists for every voxel that what moves overlaps: behind those of what stands still, whose own places, and
-// their sums, stay as they are. Its faces begin with the sums of what stands still in it. One thread a voxel of the list.
+// A place in the lists for every voxel that what moves overlaps: behind those of what stands still, whose own
+// places, and their sums, stay as they are. Its faces begin with the sums of what stands still in it. One thread a
+// voxel of the list.
 #include "common/voxel_grid.glsl"
 #include "common/item_index.glsl"
 #include "05_atomic_averaging/face_index.glsl"
@@ -42,7 +43,8 @@ void main()
         for (uint word = 0u; word < kSumWords; ++word)
             sums[place * kSumWords + word] = stands ? sums[still * kSumWords + word] : 0u;
         // Nothing finds the face at its own place now; without area it weighs nothing in what runs over all faces.
-        if (stands) faces[still] = VoxelFace(vec4(0.0), vec4(face_normal(face), 0.0), vec4(0.0), vec4(vec3(voxel) + 0.5, 0.0));
+        if (!stands) continue;
+        faces[still] = VoxelFace(vec4(0.0), vec4(face_normal(face), 0.0), vec4(0.0), vec4(vec3(voxel) + 0.5, 0.0));
     }
     // end snippet
 }

@@ -1,6 +1,6 @@
 #version 450 core
-// Takes what moved out of its last voxels: what stands still there is put back, from the sums that it has kept. One thread
-// a voxel of the list.
+// Takes what moved out of its last voxels: what stands still there is put back, from the sums that it has kept. One
+// thread a voxel of the list.
 #include "common/voxel_grid.glsl"
 #include "common/item_index.glsl"
 #include "05_atomic_averaging/face_index.glsl"

@@ -83,6 +83,9 @@ CONEBOOK_CONSTANT int kBrickListBinding = 7;
 CONEBOOK_CONSTANT int kTreeWeightBinding = 0;
 CONEBOOK_CONSTANT int kReflectedBinding = 1;
 CONEBOOK_CONSTANT int kTreeChangeBinding = 7;
+// 18: pieces of triangles instead of faces, and what is counted of them.
+CONEBOOK_CONSTANT int kPieceBinding = 2;
+CONEBOOK_CONSTANT int kPieceCountBinding = 5;
 // 19
 CONEBOOK_CONSTANT int kPatchBinding = 2;
 CONEBOOK_CONSTANT int kPatchLightBinding = 3;

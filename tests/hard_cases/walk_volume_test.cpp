@@ -6,7 +6,7 @@
 #include <string>
 
 #include "soup_pipeline.hpp"
-#include "temporary_folder.hpp"
+#include "test_shaders.hpp"
 #include "walk_oracle.hpp"
 
 namespace conebook {
@@ -252,24 +252,6 @@ struct Ray {
 };
 struct RayEnd {
     float stopped, t;
-};
-
-// A folder of the shaders of the book and, in tests/, of those of the tests.
-class TestShaders {
-public:
-    TestShaders()
-    {
-        namespace fs = std::filesystem;
-        const fs::path root = TestGl::root();
-        for (const auto& entry : fs::directory_iterator(root / "shaders"))
-            fs::create_directory_symlink(fs::absolute(entry.path()), folder_ / entry.path().filename());
-        fs::create_directory_symlink(fs::absolute(root / "tests" / "shaders"), folder_ / "tests");
-        shaders.emplace(folder_.path());
-    }
-    std::optional<gl::Shaders> shaders;
-
-private:
-    TemporaryFolder folder_;
 };
 
 std::vector<RayEnd> ends_of(const Walked& w, const std::vector<Ray>& rays)
