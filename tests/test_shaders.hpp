@@ -14,6 +14,7 @@ class TestShaders {
 public:
     TestShaders()
     {
+        test_gl();  // a context for them
         namespace fs = std::filesystem;
         const fs::path root = TestGl::root();
         for (const auto& entry : fs::directory_iterator(root / "shaders"))
