@@ -12,9 +12,6 @@ CONEBOOK_CONSTANT int kNodesPerBlock = 8;            // what one thread counts a
 CONEBOOK_CONSTANT int kBrickRow = 128;               // bricks along x, and along y, of the pool
 CONEBOOK_CONSTANT int kBrickPoolUnit = 21;           // where chapter 07 has a coverage of its own
 CONEBOOK_CONSTANT int kMaxSampledNodes = 255;         // that a test cone writes down
-// Storage buffers of passes over faces and photons, beside those of common/bindings.glsl.
-CONEBOOK_CONSTANT int kLeafFaceBinding = 5;
-CONEBOOK_CONSTANT int kFluxBinding = 0;
 
 // Nodes of a level are numbered one after another: first those that hold geometry, then their empty neighbours.
 struct TreeLevel {
