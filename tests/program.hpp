@@ -55,6 +55,13 @@ inline bool has_voxels(const std::string& chapter)
     return number >= 4 && number <= 18;
 }
 
+// Few voxels, or few patches: for tests that ask of every chapter what does not depend on how fine it is.
+inline std::string coarse_settings(const std::string& chapter)
+{
+    if (has_voxels(chapter)) return " --set voxels=16 ";
+    return chapter.rfind("20_", 0) == 0 ? " --set patches=500 rays=64 " : "";
+}
+
 // `arguments` as in a shell.
 inline ProgramRun run_program(const std::string& name, const std::string& arguments)
 {

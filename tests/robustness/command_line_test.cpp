@@ -21,7 +21,7 @@ namespace {
 // Small pictures, and a small grid where there is one.
 std::string small(const std::string& program)
 {
-    return std::string(" --headless ") + (has_voxels(program) ? "--set voxels=16 " : "");
+    return " --headless" + coarse_settings(program) + " ";
 }
 
 class Program : public testing::TestWithParam<std::string> {

@@ -23,9 +23,8 @@ Rendering render(const std::string& program, const GltfBuilder& gltf)
 {
     const TemporaryFolder folder;
     const std::filesystem::path scene = write_file(folder / "odd.glb", gltf.glb()), picture = folder / "x.exr";
-    const std::string grid = has_voxels(program) ? " --set voxels=16" : "";
     const std::string mode = program == "reference" ? "--spp 16 --bounces 2" : "--headless";
-    const ProgramRun done = run_program(program, mode + " --size 32x32 --scene '" + scene.string() + "'" + grid +
+    const ProgramRun done = run_program(program, mode + " --size 32x32 --scene '" + scene.string() + "'" + coarse_settings(program) +
                                                      " --output '" + picture.string() + "'");
     return {done.code, done.output, done.code == 0 ? read_exr(picture) : ImageF{}};
 }

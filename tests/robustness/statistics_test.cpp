@@ -27,10 +27,9 @@ class Measured {
 public:
     explicit Measured(const std::string& arguments, const std::string& program = "12_second_bounce")
     {
-        const std::string grid = has_voxels(program) ? "--set voxels=16 " : "";
         const std::string files =
             " --output '" + (folder_ / "x.exr").string() + "' --stats '" + (folder_ / "x.json").string() + "'";
-        const ProgramRun run = run_program(program, "--headless --size 48x48 " + grid + arguments + files);
+        const ProgramRun run = run_program(program, "--headless --size 48x48 " + coarse_settings(program) + arguments + files);
         if (run.code != 0) throw std::runtime_error(program + " " + arguments + ": " + run.output);
         json_ = read_statistics(folder_ / "x.json");
     }
