@@ -197,7 +197,7 @@ def told_by(kind, printed, data):
                            for key, value in test.items() if key not in known}}
     return {"driver": data["driver"], "counts": {c["name"]: c["value"] for c in data["counts"]},
             "ms": {p["name"]: p["min_ms"] for p in data["passes"]},
-            "frames": {p["name"]: p["frames"] for p in data["passes"]},
+            "frames": {p["name"]: p.get("frames", 1) for p in data["passes"]},
             "bytes": {r["name"]: r["bytes"] for r in data["resources"]}}
 
 

@@ -38,13 +38,11 @@ double first_moment_of(double cos_tilt, double half_angle_rad) { return cos_tilt
 // normal + x * right + y * up (Villegas 2016, listing 21): the height of the direction itself is dropped.
 glm::vec4 added_to_normal(const glm::vec4& cone) { return {glm::normalize(glm::vec3(cone.x, cone.y, 1.0f)), cone.w}; }
 
-// Of each of `sets` times `count` cones. An aperture of 0 is as the set asks: the cones of many sets lie close, so narrow
-// ones do. Those of a single set fill the hemisphere: a cone's solid angle 2 pi (1 - cos a) is its share of 2 pi; six are
-// the usual 60 degrees, and one alone, which would be the whole hemisphere, is held to 120.
-double half_angle(int count, double aperture_rad, int sets)
+// Of each of `count` cones. With an aperture of 0 they fill the hemisphere: a cone's solid angle 2 pi (1 - cos a) is its
+// share of 2 pi; six are the usual 60 degrees, and one alone, which would be the whole hemisphere, is held to 120.
+double half_angle(int count, double aperture_rad)
 {
     if (aperture_rad > 0.0) return 0.5 * aperture_rad;
-    if (sets > 1) return kPi / 60;  // 3 degrees
     return count == 6 ? kPi / 6 : std::min(std::acos(1.0 - 1.0 / count), kPi / 3);
 }
 
@@ -59,7 +57,7 @@ double first_moment(const ConeSet& set)
 
 ConeSet make_cone_set(int count, ConeTable table, double aperture_rad)
 {
-    const double half = half_angle(count, aperture_rad, 1);
+    const double half = half_angle(count, aperture_rad);
     const std::vector<Ring> rings = rings_of(count);
     std::vector<double> cos_tilts;
     double inner_sin2 = 0.0;  // sin^2 at the ring's inner edge = weight within it
@@ -101,7 +99,7 @@ ConeSet make_cone_set(int count, ConeTable table, double aperture_rad)
 ConeSet make_interleaved_cones(int count, ConeTable table, double aperture_rad, int sets)
 {
     if (sets == 1) return make_cone_set(count, table, aperture_rad);
-    const double half = half_angle(count, aperture_rad, sets);
+    const double half = half_angle(count, aperture_rad);
     const std::vector<Ring> rings = rings_of(count);
     ConeSet all;
     all.half_angle_rad = float(half);

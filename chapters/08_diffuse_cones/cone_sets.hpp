@@ -19,8 +19,7 @@ enum class ConeTable : int { tilted = 0, thesis = 1, thesis_added = 2 };
 //     sum_i w_i cos(t_i) (1 + cos a) / 2 = 2/3.
 double first_moment(const ConeSet& set);
 
-// count: 1, 5, 6, 9, 16 or 32. aperture_rad: full aperture of every cone; 0: as wide as covers the hemisphere's share, or 6
-// degrees where many sets share.
+// count: 1, 5, 6, 9, 16 or 32. aperture_rad: full aperture of every cone; 0: as wide as covers the hemisphere's share.
 // tilted: tilts solve the equation above. thesis: the table of Villegas 2016 for 6 cones (tilts of 60 degrees, weights
 // 1/4 and 3/20), and cell centres for the others; their moment is too small, so light from above is lost. thesis_added:
 // the same as its code has them (section 3.6.1), which does not rotate the directions but adds their part across the normal

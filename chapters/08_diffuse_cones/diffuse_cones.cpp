@@ -62,7 +62,9 @@ void ConeDirections::update(const ConeParams& params, int sample, int sets)
 {
     if (!made_from_.differs(params, sample, sets)) return;
     const bool many_sets = params.interleave != Interleave::off;
-    ConeSet set = make_interleaved_cones(params.cones, params.cone_table, glm::radians(double(params.aperture)),
+    constexpr float kInterleavedAperture_deg = 6.0f;
+    const float aperture_deg = params.aperture == 0.0f && many_sets ? kInterleavedAperture_deg : params.aperture;
+    ConeSet set = make_interleaved_cones(params.cones, params.cone_table, glm::radians(double(aperture_deg)),
                                          many_sets ? sets : 1);
     sets_ = params.interleave == Interleave::on ? sets : 1;
     cones_per_set_ = int(set.cones.size()) / sets_;
