@@ -21,7 +21,7 @@ sys.dont_write_bytecode = True
 from pages import ROOT, chapters  # noqa: E402
 from report_analysis import pareto_front  # noqa: E402
 
-METHODS = {"12": "cones in dense voxels", "17": "cones in an octree", "18": "rays through voxels",
+METHODS = {"12": "dense voxels", "17": "octree", "18": "voxel rays",
            "19": "vertices", "20": "form factors"}
 SCENES = {"cornell_box": 0, "colonnade": 1, "glossy_room": 0, "white_furnace": 0}  # scene: camera
 BOUNCES = [1, -1]
