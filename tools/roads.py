@@ -82,7 +82,7 @@ class Roads:
             rows.append({"method": f"{number} {METHODS[number]}", "picture": picture, "ms": ms, "bytes": size})
         for spp in traced:
             picture, ms = self.traced(scene, bounces, spp, 0)
-            rows.append({"method": f"path tracer, {spp} samples", "picture": picture, "ms": ms, "bytes": 0})
+            rows.append({"method": f"traced, {spp} samples", "picture": picture, "ms": ms, "bytes": 0})
         for row in rows[1:]:
             row["signed"], row["smape"] = self.error(row["picture"], truth)
         for row in rows:
